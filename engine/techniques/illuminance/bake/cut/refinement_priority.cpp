@@ -46,7 +46,7 @@ void RefinementPriority::bySolidAngle(const VisibleTree& seen) {
     m_choices.priority.clear();
     for (std::uint32_t i = seen.leaves(); i < seen.size(); ++i)
         m_choices.priority.push_back(seen.formFactor[i].solidAngle);
-    m_choices.representative.assign(m_choices.priority.size(), Representative::Own);
+    m_choices.representative.assign(m_choices.priority.size(), Representative::Cluster);
 }
 
 void RefinementPriority::weighLightings(const VisibleTree& seen, const TrainingLight& training) {
@@ -77,7 +77,7 @@ void RefinementPriority::byDetail(const VisibleTree& seen, const TrainingLight& 
 void RefinementPriority::measureGains(const VisibleTree& seen, const TrainingLight& training) {
     m_error.assign(seen.size(), 0);
     m_groups.assign(seen.size() - seen.leaves(), Group{});
-    m_choices.representative.assign(m_groups.size(), Representative::Own);
+    m_choices.representative.assign(m_groups.size(), Representative::Cluster);
     m_read.clear();
     for (std::uint32_t i = 0; i < seen.size(); ++i)
         m_read.push_back({seen.node[i], seen.formFactor[i].irradiance});
@@ -140,7 +140,7 @@ void RefinementPriority::chooseRepresentative(const VisibleTree& seen,
         m_read[i] = read;
         m_choices.representative[i - seen.leaves()] = choice;
     };
-    consider(Representative::Own, {seen.node[i], formFactor});
+    consider(Representative::Cluster, {seen.node[i], formFactor});
     consider(Representative::Left, m_read[seen.child(i, 0)]);
     consider(Representative::Right, m_read[seen.child(i, 1)]);
 }

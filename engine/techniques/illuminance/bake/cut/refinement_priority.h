@@ -11,9 +11,9 @@
 
 namespace limn {
 
-/// Node whose radiosity the link to an inner node of a VisibleTree reads: its own cluster, or the
+/// Node whose radiosity the link to an inner node of a VisibleTree reads: its cluster, or the
 /// node that the link to its left or right child would read.
-enum class Representative : std::uint8_t { Own, Left, Right };
+enum class Representative : std::uint8_t { Cluster, Left, Right };
 
 /// Result of RefinementPriority: one element for each inner node of a VisibleTree, in its order.
 struct CutChoices {

@@ -40,10 +40,10 @@ std::array<std::uint32_t, kTracedLamps> joinLamps(const std::vector<std::uint32_
     return room;
 }
 
-/// Appends to `out` the tree that `tree` spans over the leaves for which in(leaf) holds; returns
-/// its root, or kNone where there are no such leaves.
+/// Appends to `out` the subtree of `tree` that is induced by the leaves for which in(leaf) holds;
+/// returns its root, or kNone where there are no such leaves.
 template <class In>
-std::uint32_t span(const ClusterTree& tree, In in, ClusterTree& out) {
+std::uint32_t addInducedTree(const ClusterTree& tree, In in, ClusterTree& out) {
     std::vector<std::uint32_t> root(tree.size(), kNone);
     for (std::uint32_t leaf = 0; leaf < tree.leaves(); ++leaf)
         root[leaf] = in(leaf) ? leaf : kNone;
@@ -106,9 +106,9 @@ ClusterTree splitByRoom(const ClusterTree& tree, const Surfels& surfels,
     };
     std::vector<std::uint32_t> roots;
     for (std::uint32_t r = 0; r < rooms; ++r)
-        roots.push_back(span(
+        roots.push_back(addInducedTree(
             tree, [&](std::uint32_t leaf) { return leaf < tree.surfels && room[leaf] == r; }, out));
-    const std::uint32_t sky = span(
+    const std::uint32_t sky = addInducedTree(
         tree, [&](std::uint32_t leaf) { return leaf >= tree.surfels; }, out);
     for (const std::uint32_t root : roots)
         join(root);

@@ -72,7 +72,7 @@ bool meets(const Ray& ray, const std::vector<BoundingSphere>& spheres) {
 }
 
 /// Computes the training irradiance of single surfels.
-struct Trainer {
+struct IrradianceTracer {
     const TraceScene& trace;
     const Surfels& surfels;
     std::vector<Light> lights;
@@ -178,17 +178,17 @@ float TrainingLight::strength(std::uint32_t t) {
 TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
                              const EarlierTraining* earlier, const Progress& progress) {
     TracedTraining result;
-    Trainer trainer{trace, surfels, suns(), earlier, std::vector<bool>(kSuns, true)};
+    IrradianceTracer tracer{trace, surfels, suns(), earlier, std::vector<bool>(kSuns, true)};
     const std::size_t values = surfels.size() * TracedTraining::kCount;
     if (earlier &&
         (earlier->light.irradiance.size() != values || earlier->light.lamps.size() != kLamps ||
          earlier->light.position.size() != surfels.size() ||
          earlier->moved.elsewhere.size() != surfels.size()))
-        trainer.earlier = nullptr;
+        tracer.earlier = nullptr;
     for (const Light& lamp : lamps(trace, surfels)) {
-        trainer.sameLight.push_back(trainer.earlier &&
-                                    earlier->light.lamps[result.lamps.size()] == lamp.position);
-        trainer.lights.push_back(lamp);
+        tracer.sameLight.push_back(tracer.earlier &&
+                                   earlier->light.lamps[result.lamps.size()] == lamp.position);
+        tracer.lights.push_back(lamp);
         result.lamps.push_back(lamp.position);
     }
     resizeLarge(result.irradiance, values);
@@ -197,9 +197,9 @@ TracedTraining traceTraining(const TraceScene& trace, const Surfels& surfels,
                                      [&](std::size_t begin, std::size_t end) {
                                          std::uint64_t mine = 0;
                                          for (std::size_t s = begin; s < end; ++s)
-                                             for (std::size_t k = 0; k < trainer.lights.size(); ++k)
+                                             for (std::size_t k = 0; k < tracer.lights.size(); ++k)
                                                  result.irradiance[s * TracedTraining::kCount + k] =
-                                                     trainer.irradiance(s, k, mine);
+                                                     tracer.irradiance(s, k, mine);
                                          rays += mine;
                                      });
     result.position = surfels.position;

@@ -94,7 +94,7 @@ public:
     explicit CacheLinker(const LinkInput& input) : in(input), m_seen(input.order) {}
 
     /// Builds the tree of what a cache sees. Returns false for a cache that sees nothing.
-    bool look(const Caches& caches, std::uint32_t cache) {
+    bool findVisible(const Caches& caches, std::uint32_t cache) {
         forEachSample(caches, cache,
                       [&](std::uint32_t sender, const FormFactor& formFactor, float) {
                           m_seen.add(sender, formFactor);
@@ -103,10 +103,10 @@ public:
         return m_seen.size() > 0;
     }
 
-    /// After look(): number of visible leaves.
+    /// After findVisible(): number of visible leaves.
     std::uint32_t leaves() const { return m_seen.leaves(); }
 
-    /// After look(): priority and representative of each inner node.
+    /// After findVisible(): priority and representative of each inner node.
     const CutChoices& weigh() {
         if (in.settings.criterion == CutCriterion::SolidAngle)
             m_priority.bySolidAngle(m_seen);
@@ -115,22 +115,22 @@ public:
         return m_priority.choices();
     }
 
-    /// After look(): applies the refinements of a priority above `bound`, at most the best
+    /// After findVisible(): applies the refinements of a priority above `bound`, at most the best
     /// `maxLinks` - 1 of them.
     PackedLinks link(const Caches& caches, std::uint32_t cache, const CutChoices& choices,
                      float bound, std::uint32_t maxLinks) {
         chooseRefined(choices.priority, bound, maxLinks);
         findRead(choices.representative);
         m_cones.clear();
-        put(m_seen.size() - 1);
+        addCone(m_seen.size() - 1);
         for (std::uint32_t i = m_seen.leaves(); i < m_seen.size(); ++i)
             if (m_refined[i])
-                put(m_seen.child(i, 0)), put(m_seen.child(i, 1));
+                addCone(m_seen.child(i, 0)), addCone(m_seen.child(i, 1));
         std::sort(m_cones.begin(), m_cones.end(), [&](const Cone& a, const Cone& b) {
             return std::pair(in.sky[a.node], a.node) < std::pair(in.sky[b.node], b.node);
         });
         return in.settings.storage == LinkStorage::Sh ? projectSamples(caches, cache)
-                                                      : packOwnCones(caches, cache);
+                                                      : packCacheCones(caches, cache);
     }
 
     /// After link(): calls visit(node, irradiance at a radiosity of 1) for each cluster whose mean
@@ -142,18 +142,19 @@ public:
         for (std::uint32_t i = m_seen.size(); i-- > 0;) { // children come before their parents
             Place& place = m_place[i];
             if (place == Place::AboveLinks && !m_refined[i])
-                place = m_read[i] == m_seen.node[i] ? Place::OfCluster : Place::Represented;
-            if (place == Place::OfCluster || (place == Place::Represented && i < m_seen.leaves()))
+                place = m_read[i] == m_seen.node[i] ? Place::ReadsCluster : Place::Represented;
+            if (place == Place::ReadsCluster ||
+                (place == Place::Represented && i < m_seen.leaves()))
                 visit(m_seen.node[i], m_seen.formFactor[i].irradiance);
             if (i >= m_seen.leaves())
                 for (const int side : {0, 1})
                     m_place[m_seen.child(i, side)] =
-                        place == Place::OfCluster ? Place::BelowCluster : place;
+                        place == Place::ReadsCluster ? Place::BelowCluster : place;
         }
     }
 
 private:
-    enum class Place : std::uint8_t { AboveLinks, OfCluster, BelowCluster, Represented };
+    enum class Place : std::uint8_t { AboveLinks, ReadsCluster, BelowCluster, Represented };
 
     /// The axis of the mean irradiance at the valid points of a surface cache, which face different
     /// ways where a texel covers a fold or a column.
@@ -203,7 +204,7 @@ private:
         }
     }
 
-    PackedLinks packOwnCones(const Caches& caches, std::uint32_t cache) {
+    PackedLinks packCacheCones(const Caches& caches, std::uint32_t cache) {
         if (caches.kind[cache] == CacheKind::Hemisphere)
             matchIrradiance(std::min(in.settings.bands, kIrradianceBands), axisOf(caches, cache),
                             m_cones);
@@ -237,15 +238,15 @@ private:
         return packHarmonics(bands, std::move(nodes), m_harmonics);
     }
 
-    /// After put(): fills m_linkOf for the visible leaves.
+    /// After addCone(): fills m_linkOf for the visible leaves.
     void findLinksOfLeaves() {
-        constexpr std::uint32_t kNone = ~0U;
+        constexpr std::uint32_t kNoLink = ~0U;
         m_linkOf.resize(in.sky.size());
         for (std::uint32_t k = 0; k < m_cones.size(); ++k)
             m_linkOf[m_cones[k].node] = k;
-        m_linkAbove.assign(m_seen.size(), kNone);
+        m_linkAbove.assign(m_seen.size(), kNoLink);
         for (std::uint32_t i = m_seen.size(); i-- > 0;) { // children come before their parents
-            if (m_linkAbove[i] == kNone && !m_refined[i])
+            if (m_linkAbove[i] == kNoLink && !m_refined[i])
                 m_linkAbove[i] = m_linkOf[m_read[i]];
             if (i < m_seen.leaves())
                 m_linkOf[m_seen.node[i]] = m_linkAbove[i];
@@ -274,11 +275,11 @@ private:
         m_read = m_seen.node;
         for (std::uint32_t i = m_seen.leaves(); i < m_seen.size(); ++i)
             if (const Representative choice = representative[i - m_seen.leaves()];
-                choice != Representative::Own)
+                choice != Representative::Cluster)
                 m_read[i] = m_read[m_seen.child(i, choice == Representative::Right)];
     }
 
-    void put(std::uint32_t i) {
+    void addCone(std::uint32_t i) {
         if (!m_refined[i])
             m_cones.push_back(makeCone(m_read[i], m_seen.formFactor[i]));
     }
@@ -371,7 +372,7 @@ std::optional<float> sharedBound(tbb::enumerable_thread_specific<CacheLinker>& l
             CacheLinker& linker = linkers.local();
             PriorityHistogram& histogram = histograms.local();
             for (std::size_t c = begin; c < end; ++c) {
-                if (!linker.look(caches, std::uint32_t(c)))
+                if (!linker.findVisible(caches, std::uint32_t(c)))
                     continue;
                 budget += std::min(linker.leaves(), settings.links) - 1;
                 choices[c] = linker.weigh();
@@ -480,7 +481,7 @@ bool buildLinks(const Surfels& surfels, const ClusterTree& tree, const GatherHit
             CacheLinker& linker = linkers.local();
             for (std::size_t i = begin; i < end; ++i) {
                 const auto c = std::uint32_t(i);
-                if (!linker.look(caches, c))
+                if (!linker.findVisible(caches, c))
                     continue;
                 links[c] =
                     linker.link(caches, c, shared ? choices[c] : linker.weigh(), bound, maxLinks);

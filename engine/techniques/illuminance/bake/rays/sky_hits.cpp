@@ -23,7 +23,7 @@ namespace limn {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr std::uint32_t kSeldom = 8; ///< a cache aims where fewer than 1 / kSeldom of rays do
+constexpr std::uint32_t kRaysPerSkyHit = 8; ///< a cache aims where its neighbours need more
 constexpr std::uint32_t kNoCache = ~0U;
 
 bool isSky(std::uint32_t sender, std::size_t surfels) {
@@ -83,8 +83,8 @@ private:
     const SkyInput& in;
     const Neighbours& m_neighbours;
     const std::vector<std::uint32_t>& m_skyRays; ///< per cache: rays that see the sky
-    std::vector<glm::vec3> m_guides;   ///< unit; directions in which the neighbours see the sky
-    std::vector<std::uint32_t> m_open; ///< points of the cache that are not in a wall
+    std::vector<glm::vec3> m_guides; ///< unit; directions in which the neighbours see the sky
+    std::vector<std::uint32_t> m_validPoints; ///< points of the cache that are not in a wall
     std::uint64_t m_traced = 0;
 
     void findGuides(std::uint32_t cache);
@@ -93,12 +93,12 @@ private:
 
 void SkyFinder::findGuides(std::uint32_t cache) {
     m_guides.clear();
-    std::uint64_t looked = 0, seen = 0;
+    std::uint64_t rayCount = 0, skyRayCount = 0;
     m_neighbours.each(cache, [&](std::uint32_t other) {
-        looked += in.hits.rays;
-        seen += m_skyRays[other];
+        rayCount += in.hits.rays;
+        skyRayCount += m_skyRays[other];
     });
-    if (seen * kSeldom >= looked)
+    if (skyRayCount * kRaysPerSkyHit >= rayCount)
         return;
     m_neighbours.each(cache, [&](std::uint32_t other) {
         if (m_skyRays[other] == 0)
@@ -140,10 +140,10 @@ void SkyFinder::find(std::uint32_t cache, std::vector<SkyHit>& found) {
     found.clear();
     findGuides(cache);
     const std::span<const std::uint32_t> senders = in.hits.sendersOf(cache);
-    m_open.clear();
+    m_validPoints.clear();
     forEachValidPoint(in.points, cache, senders,
-                      [&](std::uint32_t point) { m_open.push_back(point); });
-    if (m_guides.empty() || m_open.empty())
+                      [&](std::uint32_t point) { m_validPoints.push_back(point); });
+    if (m_guides.empty() || m_validPoints.empty())
         return;
     const CacheRays rays = raysOf(in.caches, in.points, cache, in.hits.rays);
     const bool hemisphere = in.caches.kind[cache] == CacheKind::Hemisphere;
@@ -172,7 +172,7 @@ void SkyFinder::find(std::uint32_t cache, std::vector<SkyHit>& found) {
         add(std::uint32_t(in.surfels) + skyCellOf(a.direction), a.point, a.direction, z);
     };
     for (std::uint32_t k = 0; k < kSkyRays; ++k) {
-        const std::uint32_t point = m_open[k % m_open.size()];
+        const std::uint32_t point = m_validPoints[k % m_validPoints.size()];
         const glm::vec3 normal = in.points.normal[point], d = aimed(cache, k, solidAngle);
         if (!hemisphere || glm::dot(d, normal) > 0)
             aims.add({in.trace.clearOf(in.points.position[point], normal), d}, {point, d}, open);
@@ -186,31 +186,31 @@ void SkyFinder::find(std::uint32_t cache, std::vector<SkyHit>& found) {
 SkyHits findSkyHits(const SkyInput& in, const Progress& progress) {
     const Neighbours neighbours(in);
     const std::vector<std::uint32_t> skyRays = countSkyRays(in);
-    std::vector<std::vector<SkyHit>> seen(in.caches.size());
+    std::vector<std::vector<SkyHit>> hits(in.caches.size());
     std::atomic<std::uint64_t> rays = 0;
     const Progress quiet{.report = {}, .cancel = progress.cancel};
-    parallelRanges(seen.size(), 16, quiet, "trace", [&](std::size_t begin, std::size_t end) {
+    parallelRanges(hits.size(), 16, quiet, "trace", [&](std::size_t begin, std::size_t end) {
         SkyFinder finder(in, neighbours, skyRays);
         std::vector<SkyHit> found;
         for (std::size_t c = begin; c < end; ++c) {
             finder.find(std::uint32_t(c), found);
-            seen[c] = found; // a copy has no spare capacity
+            hits[c] = found; // a copy has no spare capacity
         }
         rays += finder.traced();
     });
     SkyHits result;
     result.begin.push_back(0);
-    for (const std::vector<SkyHit>& s : seen)
+    for (const std::vector<SkyHit>& s : hits)
         result.begin.push_back(result.begin.back() + std::uint32_t(s.size()));
     reserveLarge(result.all, result.begin.back());
-    for (const std::vector<SkyHit>& s : seen)
+    for (const std::vector<SkyHit>& s : hits)
         result.all.insert(result.all.end(), s.begin(), s.end());
     result.rays = rays;
     return result;
 }
 
-void takeSkyHits(SkyHits samples, std::size_t surfels, GatherHits& hits) {
-    hits.sky = std::move(samples);
+void takeSkyHits(SkyHits sky, std::size_t surfels, GatherHits& hits) {
+    hits.sky = std::move(sky);
     for (std::size_t c = 0; c + 1 < hits.sky.begin.size(); ++c) {
         if (hits.sky.begin[c] == hits.sky.begin[c + 1])
             continue;

@@ -38,7 +38,7 @@ struct SkyInput {
 SkyHits findSkyHits(const SkyInput& input, const Progress& progress);
 
 /// Puts the hits of the sky into `hits`. Rays of their caches that met the sky become kAimed.
-void takeSkyHits(SkyHits samples, std::size_t surfels, GatherHits& hits);
+void takeSkyHits(SkyHits sky, std::size_t surfels, GatherHits& hits);
 
 /// Form factor of a hit of a cache of this kind.
 FormFactor formFactorOf(const SkyHit& sky, const CachePoints& points, CacheKind kind);

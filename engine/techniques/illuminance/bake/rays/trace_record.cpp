@@ -130,7 +130,7 @@ InstanceMatch matchInstances(const TraceRecord& before, const TraceRecord& now) 
         firstNow[i] = std::uint32_t(first);
         first += now.instances[i].surfelCount;
     }
-    std::map<std::uint64_t, std::uint32_t> left; // shapes no longer at a place
+    std::map<std::uint64_t, std::uint32_t> departed; // shapes no longer at a place
     for (const TracedInstance& old : before.instances) {
         const auto [begin, end] = waiting.equal_range(old.shape);
         const auto same = std::find_if(begin, end, [&](const auto& entry) {
@@ -144,24 +144,24 @@ InstanceMatch matchInstances(const TraceRecord& before, const TraceRecord& now) 
         if (there) {
             waiting.erase(same);
         } else {
-            ++left[old.shape];
-            const auto alike =
+            ++departed[old.shape];
+            const auto sameShape =
                 std::find_if(now.instances.begin(), now.instances.end(),
                              [&](const TracedInstance& i) { return i.shape == old.shape; });
-            match.left.push_back(
-                {old.toWorld, alike != now.instances.end() ? alike->instance : ~0U});
+            match.departed.push_back(
+                {old.toWorld, sameShape != now.instances.end() ? sameShape->instance : ~0U});
         }
     }
     for (const auto& [shape, i] : waiting) {
-        match.arrived.push_back(now.instances[i].instance);
-        if (std::uint32_t& gone = left[shape]; gone > 0) {
+        match.appeared.push_back(now.instances[i].instance);
+        if (std::uint32_t& gone = departed[shape]; gone > 0) {
             --gone;
             ++match.moved;
         } else {
             ++match.added;
         }
     }
-    for (const auto& [shape, count] : left)
+    for (const auto& [shape, count] : departed)
         match.removed += count;
     // A patch that another wall splits has other hits, even though its surfel has not moved.
     const auto partedAt = [](const TraceRecord& r, std::uint32_t s) {

@@ -63,14 +63,15 @@ struct InstanceMatch {
     /// Per surfel of the older record: its index now; kGone where its place has changed. Sky cells
     /// follow the surfels in both.
     std::vector<std::uint32_t> surfelNow;
-    std::vector<std::uint32_t> arrived; ///< Scene::instances that are new at their place
+    std::vector<std::uint32_t> appeared; ///< Scene::instances that are new at their place
     std::uint32_t moved = 0, added = 0, removed = 0, resampled = 0; ///< for people
     /// Instances that are no longer at their place.
-    struct Left {
+    struct Departed {
         glm::mat4 toWorld;
-        std::uint32_t alike; ///< index now into Scene::instances of one of the same shape; ~0: none
+        std::uint32_t
+            sameShape; ///< index now into Scene::instances of one of the same shape; ~0: none
     };
-    std::vector<Left> left;
+    std::vector<Departed> departed;
     bool identity = true; ///< no surfel's index has changed; some may have moved
 };
 InstanceMatch matchInstances(const TraceRecord& before, const TraceRecord& now);

@@ -48,12 +48,12 @@ std::uint64_t aimedKey(const TraceInput& in, std::uint64_t trace) {
 }
 
 /// A block's caches that differ from an earlier one's, and their hits.
-template <class A, class Root, class Patched, class Hits>
-void patchFields(A& a, Root& root, Patched& patched, Hits& hits, std::size_t caches,
-                 std::uint32_t rays) {
+template <class A, class Root, class Changed, class Hits>
+void differenceFields(A& a, Root& root, Changed& changed, Hits& hits, std::size_t caches,
+                      std::uint32_t rays) {
     a("root", root, rule::any);
-    a("patched", patched, rule::below(caches));
-    a("hits", hits, rule::count(std::uint64_t(patched.size()) * rays));
+    a("changed", changed, rule::below(caches));
+    a("hits", hits, rule::count(std::uint64_t(changed.size()) * rays));
 }
 
 /// Whether every cache aims from its own points, at existing senders.
@@ -93,18 +93,18 @@ std::string grouped(std::uint64_t n) {
 struct KeptBlock {
     bool known = false;                 ///< its hits were found
     std::uint64_t root = 0;             ///< key of all hits, its own or the earlier block's
-    std::vector<std::uint32_t> patched; ///< caches that differ from it, from the block's first
+    std::vector<std::uint32_t> changed; ///< caches that differ from it, from the block's first
 };
 
 /// An earlier trace whose hits may still be valid.
-struct Base {
+struct EarlierTrace {
     TraceRecord record;
     InstanceMatch match;
     bool aligned = false;     ///< most of its caches equal the current ones, index by index
     std::vector<RawHit> hits; ///< of all its caches; empty where aligned
     std::vector<KeptBlock> blocks;
     std::unordered_map<std::uint64_t, std::uint32_t> cacheOf; ///< by hash; empty where aligned
-    std::unique_ptr<ArrivedObjects> arrived;
+    std::unique_ptr<NewObjects> appeared;
 };
 
 class Tracing {
@@ -129,10 +129,10 @@ private:
     KeptBlock loadBlock(std::uint64_t key, RawHit* out, std::size_t caches,
                         std::uint32_t surfels) const;
     void loadDone();
-    void loadBase();
-    bool loadBaseHits();
+    void loadEarlier();
+    bool loadEarlierHits();
     void noteMoved(std::uint64_t key);
-    bool takeFromBase(std::uint32_t cache, RawHit* out) const;
+    bool takeFromEarlier(std::uint32_t cache, RawHit* out) const;
     std::uint64_t retrace(std::uint32_t cache, RawHit* out);
     void traceOne(std::uint32_t cache);
     void keepBlock(std::uint32_t block);
@@ -148,9 +148,9 @@ private:
     TraceRecord m_record;
     std::uint64_t m_key;
     bool m_exact = false; ///< this very trace was stored completely
-    std::unique_ptr<Base> m_base;
+    std::unique_ptr<EarlierTrace> m_earlier;
     std::vector<std::uint8_t> m_done;               ///< per block: its hits are final
-    std::vector<std::uint8_t> m_changed;            ///< per cache: differs from the base
+    std::vector<std::uint8_t> m_changed;            ///< per cache: differs from the earlier trace
     std::vector<std::atomic<std::uint32_t>> m_left; ///< per block: caches still to do
     std::atomic<std::uint64_t> m_rays = 0, m_retraced = 0;
     TraceReport m_report;
@@ -167,12 +167,13 @@ bool areHits(std::span<const RawHit> hits, std::uint32_t surfels) {
 KeptBlock Tracing::loadBlock(std::uint64_t key, RawHit* out, std::size_t caches,
                              std::uint32_t surfels) const {
     const std::size_t bytesPerCache = in.rays * sizeof(RawHit);
-    KeptBlock block{.known = false, .root = key, .patched = {}};
+    KeptBlock block{.known = false, .root = key, .changed = {}};
     std::optional<std::string> bytes = m_store->find(key);
     std::vector<RawHit> hits;
-    if (bytes && bytes->size() != caches * bytesPerCache) { // a patch has fewer
+    if (bytes &&
+        bytes->size() != caches * bytesPerCache) { // one that differs from another has fewer
         if (!readFields(*bytes, [&](auto& archive) {
-                patchFields(archive, block.root, block.patched, hits, caches, in.rays);
+                differenceFields(archive, block.root, block.changed, hits, caches, in.rays);
             }))
             return block;
         bytes = m_store->find(block.root);
@@ -180,8 +181,8 @@ KeptBlock Tracing::loadBlock(std::uint64_t key, RawHit* out, std::size_t caches,
     if (!bytes || bytes->size() != caches * bytesPerCache)
         return block;
     std::memcpy(out, bytes->data(), bytes->size());
-    for (std::size_t i = 0; i < block.patched.size(); ++i)
-        std::copy_n(&hits[i * in.rays], in.rays, out + block.patched[i] * std::size_t(in.rays));
+    for (std::size_t i = 0; i < block.changed.size(); ++i)
+        std::copy_n(&hits[i * in.rays], in.rays, out + block.changed[i] * std::size_t(in.rays));
     block.known = areHits({out, caches * in.rays}, surfels);
     return block;
 }
@@ -213,72 +214,72 @@ bool alignedCaches(const TraceRecord& before, const TraceRecord& now) {
 }
 
 /// Loads the latest finished trace of the document, if its rays start alike.
-void Tracing::loadBase() {
+void Tracing::loadEarlier() {
     std::uint64_t key = 0;
     const std::optional<std::string> pointer = m_store->find(documentKey(in));
     if (!pointer || pointer->size() != sizeof key)
         return;
     std::memcpy(&key, pointer->data(), sizeof key);
-    auto base = std::make_unique<Base>();
+    auto earlier = std::make_unique<EarlierTrace>();
     const std::optional<std::string> bytes = m_store->find(recordKey(key));
-    if (!bytes || !readRecord(*bytes, base->record) || base->record.rays != m_record.rays ||
-        base->record.cachesPerBlock != m_record.cachesPerBlock ||
-        base->record.clearance != m_record.clearance)
+    if (!bytes || !readRecord(*bytes, earlier->record) || earlier->record.rays != m_record.rays ||
+        earlier->record.cachesPerBlock != m_record.cachesPerBlock ||
+        earlier->record.clearance != m_record.clearance)
         return;
-    base->match = matchInstances(base->record, m_record);
-    base->aligned = alignedCaches(base->record, m_record);
-    m_base = std::move(base);
-    if (!loadBaseHits()) {
-        m_base = nullptr;
+    earlier->match = matchInstances(earlier->record, m_record);
+    earlier->aligned = alignedCaches(earlier->record, m_record);
+    m_earlier = std::move(earlier);
+    if (!loadEarlierHits()) {
+        m_earlier = nullptr;
         return;
     }
     noteMoved(key);
-    if (!m_base->match.arrived.empty())
-        m_base->arrived = std::make_unique<ArrivedObjects>(in.trace, m_base->match.arrived);
+    if (!m_earlier->match.appeared.empty())
+        m_earlier->appeared = std::make_unique<NewObjects>(in.trace, m_earlier->match.appeared);
 }
 
-/// Loads the base's hits. Returns false where memory does not suffice.
-bool Tracing::loadBaseHits() {
-    Base& base = *m_base;
-    const std::size_t caches = base.record.caches.size();
-    if (!base.aligned) {
+/// Loads the earlier trace's hits. Returns false where memory does not suffice.
+bool Tracing::loadEarlierHits() {
+    EarlierTrace& earlier = *m_earlier;
+    const std::size_t caches = earlier.record.caches.size();
+    if (!earlier.aligned) {
         if (caches * in.rays * sizeof(RawHit) > halfOfMemory() / 2)
             return false;
-        base.hits.resize(caches * in.rays);
+        earlier.hits.resize(caches * in.rays);
         for (std::uint32_t c = 0; c < caches; ++c)
-            base.cacheOf.emplace(base.record.caches[c], c);
+            earlier.cacheOf.emplace(earlier.record.caches[c], c);
     }
-    base.blocks.resize(base.record.blocks.size());
-    parallelRanges(base.blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
+    earlier.blocks.resize(earlier.record.blocks.size());
+    parallelRanges(earlier.blocks.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b) {
-            if (base.aligned && m_done[b])
+            if (earlier.aligned && m_done[b])
                 continue;
             const std::size_t from = b * m_record.cachesPerBlock;
             const std::size_t to = std::min<std::size_t>(from + m_record.cachesPerBlock, caches);
-            RawHit* out = (base.aligned ? m_hits.sender : base.hits).data() + from * in.rays;
-            base.blocks[b] =
-                loadBlock(base.record.blocks[b], out, to - from, base.record.surfels());
+            RawHit* out = (earlier.aligned ? m_hits.sender : earlier.hits).data() + from * in.rays;
+            earlier.blocks[b] =
+                loadBlock(earlier.record.blocks[b], out, to - from, earlier.record.surfels());
         }
     });
     return true;
 }
 
-/// Reports what moved since the base, `key`, where that can be determined.
+/// Reports what moved since the earlier trace `key`, where that can be determined.
 void Tracing::noteMoved(std::uint64_t key) {
-    const InstanceMatch& match = m_base->match;
+    const InstanceMatch& match = m_earlier->match;
     if (!match.identity)
         return;
     const Scene& scene = in.trace.scene();
     MovedSince moved{.key = key, .elsewhere = {}, .places = {}};
     for (const std::uint32_t s : match.surfelNow)
         moved.elsewhere.push_back(s == InstanceMatch::kGone ? 1 : 0);
-    for (const InstanceMatch::Left& left : match.left) {
-        if (left.alike == ~0U)
+    for (const InstanceMatch::Departed& departed : match.departed) {
+        if (departed.sameShape == ~0U)
             return;
-        const Mesh& mesh = scene.meshOf(scene.instances[left.alike]);
-        moved.places.push_back(sphereAround(in.trace, mesh, left.toWorld));
+        const Mesh& mesh = scene.meshOf(scene.instances[departed.sameShape]);
+        moved.places.push_back(sphereAround(in.trace, mesh, departed.toWorld));
     }
-    for (const std::uint32_t i : match.arrived) {
+    for (const std::uint32_t i : match.appeared) {
         const Instance& instance = scene.instances[i];
         moved.places.push_back(sphereAround(in.trace, scene.meshOf(instance), instance.toWorld));
     }
@@ -286,22 +287,23 @@ void Tracing::noteMoved(std::uint64_t key) {
 }
 
 /// Copies an earlier cache's hits to `out`, unless they are already there.
-bool Tracing::takeFromBase(std::uint32_t cache, RawHit* out) const {
-    if (!m_base)
+bool Tracing::takeFromEarlier(std::uint32_t cache, RawHit* out) const {
+    if (!m_earlier)
         return false;
-    if (m_base->aligned)
-        return m_base->blocks[cache / m_record.cachesPerBlock].known &&
-               m_base->record.caches[cache] == m_record.caches[cache];
-    const auto it = m_base->cacheOf.find(m_record.caches[cache]);
-    if (it == m_base->cacheOf.end() || !m_base->blocks[it->second / m_record.cachesPerBlock].known)
+    if (m_earlier->aligned)
+        return m_earlier->blocks[cache / m_record.cachesPerBlock].known &&
+               m_earlier->record.caches[cache] == m_record.caches[cache];
+    const auto it = m_earlier->cacheOf.find(m_record.caches[cache]);
+    if (it == m_earlier->cacheOf.end() ||
+        !m_earlier->blocks[it->second / m_record.cachesPerBlock].known)
         return false;
-    std::copy_n(m_base->hits.data() + std::size_t(it->second) * in.rays, in.rays, out);
+    std::copy_n(m_earlier->hits.data() + std::size_t(it->second) * in.rays, in.rays, out);
     return true;
 }
 
 /// Brings an earlier cache's hits up to date; returns the number of rays traced again.
 std::uint64_t Tracing::retrace(std::uint32_t cache, RawHit* out) {
-    const std::vector<std::uint32_t>& now = m_base->match.surfelNow;
+    const std::vector<std::uint32_t>& now = m_earlier->match.surfelNow;
     const auto sky = std::uint32_t(in.set.surfels.size());
     std::vector<std::uint8_t> again(in.rays);
     for (std::uint32_t r = 0; r < in.rays; ++r) {
@@ -313,8 +315,8 @@ std::uint64_t Tracing::retrace(std::uint32_t cache, RawHit* out) {
         again[r] = moved == InstanceMatch::kGone ? 1 : 0;
         out[r] = again[r] ? 0 : moved | back;
     }
-    if (m_base->arrived)
-        m_rays += m_base->arrived->mark(m_gatherer, in.points, cache, again);
+    if (m_earlier->appeared)
+        m_rays += m_earlier->appeared->mark(m_gatherer, in.points, cache, again);
     std::uint64_t count = 0;
     const CacheRays rays = m_gatherer.directions(cache);
     for (std::uint32_t r = 0; r < in.rays; ++r)
@@ -329,7 +331,7 @@ void Tracing::traceOne(std::uint32_t cache) {
     RawHit* out = &m_hits.sender[std::size_t(cache) * in.rays];
     const std::uint32_t block = cache / m_record.cachesPerBlock;
     const std::uint64_t rays =
-        takeFromBase(cache, out) ? retrace(cache, out) : m_gatherer.traceCache(cache, out);
+        takeFromEarlier(cache, out) ? retrace(cache, out) : m_gatherer.traceCache(cache, out);
     m_rays += rays;
     m_retraced += rays > 0 ? 1 : 0;
     m_changed[cache] = rays > 0 ? 1 : 0;
@@ -337,34 +339,34 @@ void Tracing::traceOne(std::uint32_t cache) {
         keepBlock(block);
 }
 
-/// Stores a block, only as its difference from the base where possible.
+/// Stores a block, only as its difference from the earlier one where possible.
 void Tracing::keepBlock(std::uint32_t block) {
     const std::size_t begin = first(block), caches = last(block) - begin;
     const RawHit* hits = &m_hits.sender[begin * in.rays];
-    const bool known =
-        m_base && m_base->aligned && m_base->match.identity && m_base->blocks[block].known;
-    std::vector<std::uint8_t> patched(m_changed.begin() + std::ptrdiff_t(begin),
+    const bool known = m_earlier && m_earlier->aligned && m_earlier->match.identity &&
+                       m_earlier->blocks[block].known;
+    std::vector<std::uint8_t> changed(m_changed.begin() + std::ptrdiff_t(begin),
                                       m_changed.begin() + std::ptrdiff_t(begin + caches));
-    if (known && std::count(patched.begin(), patched.end(), 1) == 0) {
-        m_record.blocks[block] = m_base->record.blocks[block];
+    if (known && std::count(changed.begin(), changed.end(), 1) == 0) {
+        m_record.blocks[block] = m_earlier->record.blocks[block];
         return;
     }
     m_record.blocks[block] = blockKey(m_key, block);
     if (known)
-        for (const std::uint32_t c : m_base->blocks[block].patched)
-            patched[c] = 1;
-    if (const auto count = std::size_t(std::count(patched.begin(), patched.end(), 1));
+        for (const std::uint32_t c : m_earlier->blocks[block].changed)
+            changed[c] = 1;
+    if (const auto count = std::size_t(std::count(changed.begin(), changed.end(), 1));
         known && 2 * count < caches) {
         std::vector<std::uint32_t> which;
         std::vector<RawHit> theirs;
         for (std::uint32_t c = 0; c < caches; ++c)
-            if (patched[c]) {
+            if (changed[c]) {
                 which.push_back(c);
                 theirs.insert(theirs.end(), hits + std::size_t(c) * in.rays,
                               hits + std::size_t(c + 1) * in.rays);
             }
         ByteWriter writer;
-        patchFields(writer, m_base->blocks[block].root, which, theirs, caches, in.rays);
+        differenceFields(writer, m_earlier->blocks[block].root, which, theirs, caches, in.rays);
         m_store->put(m_record.blocks[block], writer.bytes);
         return;
     }
@@ -408,12 +410,12 @@ bool Tracing::finish() {
 void Tracing::note() {
     const std::string caches = grouped(in.caches.size());
     const auto kept = std::size_t(std::count(m_done.begin(), m_done.end(), 1));
-    const std::string why = m_base ? matchWords(m_base->match) : "";
-    if (m_base && m_retraced > 0)
+    const std::string why = m_earlier ? matchWords(m_earlier->match) : "";
+    if (m_earlier && m_retraced > 0)
         m_report.notes.push_back(fmt::format("{}: {} of {} caches re-traced",
                                              why.empty() ? "Texels or cells changed" : why,
                                              grouped(m_retraced), caches));
-    else if (m_base && !m_exact)
+    else if (m_earlier && !m_exact)
         m_report.notes.push_back(fmt::format("{}: no ray of {} caches meets it",
                                              why.empty() ? "Nothing moved" : why, caches));
     else if (m_exact && m_retraced == 0)
@@ -435,7 +437,7 @@ Result<TraceReport> Tracing::run() {
     if (m_store) {
         loadDone();
         if (std::count(m_done.begin(), m_done.end(), 0) > 0)
-            loadBase();
+            loadEarlier();
     }
     std::vector<std::uint32_t> caches;
     for (std::uint32_t b = 0; b < m_done.size(); ++b) {

@@ -3,7 +3,7 @@
 
 #include "engine/core/result.h"
 #include "engine/stages/stage_store.h"
-#include "engine/techniques/illuminance/bake/rays/arrived.h"
+#include "engine/techniques/illuminance/bake/rays/new_objects.h"
 
 #include <cstdint>
 #include <optional>

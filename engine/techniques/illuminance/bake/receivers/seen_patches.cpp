@@ -145,12 +145,12 @@ MeshPoint PatchHits::placeFor(std::uint32_t surfel,
     const MeshPoint place{s.triangle[surfel], s.barycentric[surfel]};
     if (picked.size() < 2)
         return place;
-    std::vector<WorldPoint> points;
+    std::vector<WorldPoint> places;
     for (const std::uint32_t i : picked)
-        points.push_back(placeOf(trace.scene(), set, surfel, hits[i].point));
+        places.push_back(placeOf(trace.scene(), set, surfel, hits[i].point));
     const auto sumTo = [&](glm::vec3 p, glm::vec3 n) {
         float sum = 0;
-        for (const WorldPoint& o : points)
+        for (const WorldPoint& o : places)
             sum += std::sqrt(std::max(glm::dot(o.position - p, o.position - p) +
                                           16 * s.area[surfel] * (1 - glm::dot(o.normal, n)),
                                       0.f));
@@ -161,7 +161,7 @@ MeshPoint PatchHits::placeFor(std::uint32_t surfel,
                                          : std::numeric_limits<float>::max();
     MeshPoint best = place;
     for (std::size_t k = 0; k < picked.size(); ++k)
-        if (const float mean = sumTo(points[k].position, points[k].normal) / (n - 1);
+        if (const float mean = sumTo(places[k].position, places[k].normal) / (n - 1);
             mean < least) {
             least = mean;
             best = hits[picked[k]].point;

@@ -71,7 +71,8 @@ TEST(SenderOrder, FindsTheLowestNodeAboveTwoLeaves) {
 }
 
 /// What a random cache might see.
-void look(std::mt19937& rng, const ClusterTree& tree, std::uint32_t senders, VisibleTree& seen) {
+void addRandomLeaves(std::mt19937& rng, const ClusterTree& tree, std::uint32_t senders,
+                     VisibleTree& seen) {
     std::uniform_real_distribution<float> unit(0, 1);
     for (std::uint32_t k = 0; k < senders; ++k) {
         const float weight = unit(rng);
@@ -87,7 +88,7 @@ TEST(VisibleTree, JoinsWhatIsSeenAtItsLowestCommonNodes) {
     VisibleTree seen(order);
     std::mt19937 rng(4);
     for (int i = 0; i < 50; ++i) {
-        look(rng, tree, 1 + std::uint32_t(rng()) % 60, seen);
+        addRandomLeaves(rng, tree, 1 + std::uint32_t(rng()) % 60, seen);
         ASSERT_EQ(seen.size(), 2 * seen.leaves() - 1);
         for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n) {
             const std::uint32_t l = seen.child(n, 0), r = seen.child(n, 1);
@@ -135,17 +136,17 @@ struct Read {
     double seen;        ///< irradiance that the cache gets from it at a radiosity of 1
 };
 Read readOf(const VisibleTree& seen, const CutChoices& choices, std::uint32_t n,
-            Representative by) {
-    if (n < seen.leaves() || by == Representative::Own)
+            Representative choice) {
+    if (n < seen.leaves() || choice == Representative::Cluster)
         return {seen.node[n], double(seen.formFactor[n].irradiance)};
-    const std::uint32_t child = seen.child(n, by == Representative::Right);
+    const std::uint32_t child = seen.child(n, choice == Representative::Right);
     return readOf(seen, choices, child,
-                  child < seen.leaves() ? Representative::Own
+                  child < seen.leaves() ? Representative::Cluster
                                         : choices.representative[child - seen.leaves()]);
 }
 Read readOf(const VisibleTree& seen, const CutChoices& choices, std::uint32_t n) {
     return readOf(seen, choices, n,
-                  n < seen.leaves() ? Representative::Own
+                  n < seen.leaves() ? Representative::Cluster
                                     : choices.representative[n - seen.leaves()]);
 }
 
@@ -191,7 +192,7 @@ void forEachWeighed(unsigned seed, const Visit& visit) {
     RefinementPriority priority;
     std::mt19937 rng(seed);
     for (int i = 0; i < 30; ++i) {
-        look(rng, f.tree, 80, seen);
+        addRandomLeaves(rng, f.tree, 80, seen);
         priority.byDetail(seen, f.training);
         visit(Weighed{seen, f.training, priority.choices()});
     }
@@ -226,19 +227,20 @@ TEST(RefinementPriority, ALinkReadsTheNodeOfLeastExpectedError) {
     forEachWeighed(7, [&](const Weighed& w) {
         const VisibleTree& seen = w.seen;
         for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n) {
-            const auto expected = [&](Representative by) {
-                const Read read = readOf(seen, w.choices, n, by);
+            const auto expected = [&](Representative choice) {
+                const Read read = readOf(seen, w.choices, n, choice);
                 const auto formFactor = double(seen.formFactor[n].irradiance);
                 return w.errorOf(n, read.node) + w.weight.back() * 0.03 / 2 * formFactor *
                                                      (formFactor - 2 * read.seen) *
                                                      double(w.training.squaredWeights[read.node]);
             };
-            const double own = expected(Representative::Own), left = expected(Representative::Left),
+            const double clusterError = expected(Representative::Cluster),
+                         left = expected(Representative::Left),
                          right = expected(Representative::Right);
-            const Representative by = w.choices.representative[n - seen.leaves()];
-            represented += by != Representative::Own;
-            const double scale = std::abs(own) + std::abs(left) + std::abs(right);
-            EXPECT_NEAR(expected(by), std::min({own, left, right}), 1e-5 * scale);
+            const Representative choice = w.choices.representative[n - seen.leaves()];
+            represented += choice != Representative::Cluster;
+            const double scale = std::abs(clusterError) + std::abs(left) + std::abs(right);
+            EXPECT_NEAR(expected(choice), std::min({clusterError, left, right}), 1e-5 * scale);
         }
     });
     EXPECT_GT(represented, 100); // of some two thousand
@@ -283,7 +285,7 @@ TEST(RefinementPriority, NeverFallsTowardsTheRoot) {
     RefinementPriority priority;
     std::mt19937 rng(6);
     for (int i = 0; i < 50; ++i) {
-        look(rng, f.tree, 200, seen);
+        addRandomLeaves(rng, f.tree, 200, seen);
         for (const bool detail : {false, true}) {
             detail ? priority.byDetail(seen, f.training) : priority.bySolidAngle(seen);
             for (std::uint32_t n = seen.leaves(); n < seen.size(); ++n)
@@ -325,12 +327,12 @@ TEST(Cut, CoversEverySenderInSightOnceAndKeepsToItsBudget) {
             EXPECT_LE(caches.links.size(), budget);
             EXPECT_GT(caches.links.size(), budget * 97 / 100);
             for (std::uint32_t c = 0; c < caches.size(); ++c) {
-                const std::uint32_t own = caches.linkBegin[c + 1] - caches.linkBegin[c];
-                EXPECT_LE(own, criterion == CutCriterion::Detail ? 16 * links : links);
+                const std::uint32_t linkCount = caches.linkBegin[c + 1] - caches.linkBegin[c];
+                EXPECT_LE(linkCount, criterion == CutCriterion::Detail ? 16 * links : links);
                 const std::vector<bool> mark = covered(f.tree, caches, c);
                 if (criterion == CutCriterion::Detail)
                     continue; // a link may read one sender for several
-                for (std::uint32_t r = 0; own > 0 && r < f.hits.rays; ++r)
+                for (std::uint32_t r = 0; linkCount > 0 && r < f.hits.rays; ++r)
                     if (const std::uint32_t s = f.hits.sender[c * f.hits.rays + r];
                         s < GatherHits::kFirstMark) {
                         EXPECT_TRUE(mark[s]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/techniques/illuminance/bake/rays/arrived.h"
+#include "engine/techniques/illuminance/bake/rays/new_objects.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ BoundingSphere sphereAround(const TraceScene& trace, const Mesh& mesh, const glm
     return {box.centre(), glm::length(box.size()) * 0.505f + trace.epsilonAt(box.centre()) * 4};
 }
 
-ArrivedObjects::ArrivedObjects(const TraceScene& trace, const std::vector<std::uint32_t>& instances)
+NewObjects::NewObjects(const TraceScene& trace, const std::vector<std::uint32_t>& instances)
     : m_objects(trace.scene(), maskOf(trace.scene().instances.size(), instances)) {
     for (const std::uint32_t i : instances) {
         const Instance& instance = trace.scene().instances[i];
@@ -34,9 +34,9 @@ ArrivedObjects::ArrivedObjects(const TraceScene& trace, const std::vector<std::u
 }
 
 // z decreases along the lattice, so a cone's rays lie within one contiguous range of it.
-void ArrivedObjects::markInCone(const CacheRays& rays, std::uint32_t k, glm::vec3 from,
-                                const BoundingSphere& sphere,
-                                std::vector<std::uint8_t>& candidate) const {
+void NewObjects::markInCone(const CacheRays& rays, std::uint32_t k, glm::vec3 from,
+                            const BoundingSphere& sphere,
+                            std::vector<std::uint8_t>& candidate) const {
     const glm::vec3 way = sphere.centre - from;
     const float distance = glm::length(way);
     const auto count = std::uint32_t(candidate.size());
@@ -61,8 +61,8 @@ void ArrivedObjects::markInCone(const CacheRays& rays, std::uint32_t k, glm::vec
             candidate[r] = 1;
 }
 
-std::uint32_t ArrivedObjects::mark(const RayGatherer& gatherer, const CachePoints& points,
-                                   std::uint32_t cache, std::vector<std::uint8_t>& met) const {
+std::uint32_t NewObjects::mark(const RayGatherer& gatherer, const CachePoints& points,
+                               std::uint32_t cache, std::vector<std::uint8_t>& met) const {
     const CacheRays rays = gatherer.directions(cache);
     std::vector<std::uint8_t> candidate(met.size());
     for (std::uint32_t k = 0; k < rays.points; ++k)

@@ -18,10 +18,10 @@ struct BoundingSphere {
 BoundingSphere sphereAround(const TraceScene& trace, const Mesh& mesh, const glm::mat4& toWorld);
 
 /// Finds the rays that meet objects which are new at their place.
-class ArrivedObjects {
+class NewObjects {
 public:
     /// `instances`: indices into the instances of `trace`'s scene, which must outlive the object.
-    ArrivedObjects(const TraceScene& trace, const std::vector<std::uint32_t>& instances);
+    NewObjects(const TraceScene& trace, const std::vector<std::uint32_t>& instances);
 
     /// Sets met[r] for each ray of the cache that, extended to infinity, meets one of the objects,
     /// and leaves the other entries unchanged. Returns the number of rays traced against the
