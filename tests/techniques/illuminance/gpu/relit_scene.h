@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/gpu/gpu_relight.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "engine/techniques/illuminance/relight/surfel_light.h"

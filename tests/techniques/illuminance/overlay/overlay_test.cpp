@@ -4,6 +4,7 @@
 #include "engine/core/result.h"
 #include "engine/math/packing.h"
 #include "engine/overlay/palette.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/format/link_storage.h"
 #include "engine/techniques/illuminance/overlay/dependencies.h"
 #include "engine/techniques/illuminance/overlay/link_cut.h"
