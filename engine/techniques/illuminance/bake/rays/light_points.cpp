@@ -97,7 +97,7 @@ struct Finder {
 
     LitPoint pointOf(const CacheRay& source, const LitPoint& place, std::uint32_t s);
     glm::vec3 raised(const LitPoint& point, std::uint32_t s, float height);
-    bool isTogether(const LitPoint& point, const Middle& middle, std::uint32_t s);
+    bool isOnSameSide(const LitPoint& point, const Middle& middle, std::uint32_t s);
     std::array<LitPoint, kLightPoints> find(const CandidateRays& chosen, std::uint32_t s);
 };
 
@@ -131,7 +131,7 @@ glm::vec3 Finder::raised(const LitPoint& point, std::uint32_t s, float height) {
 }
 
 /// Whether no wall stands between the point and the surfel's place.
-bool Finder::isTogether(const LitPoint& point, const Middle& middle, std::uint32_t s) {
+bool Finder::isOnSameSide(const LitPoint& point, const Middle& middle, std::uint32_t s) {
     constexpr float kAlike = 0.5f; // cosine of 60 degrees
     for (std::size_t k = 0; k < kHeights.size(); ++k) {
         ++rays;
@@ -162,7 +162,7 @@ std::array<LitPoint, kLightPoints> Finder::find(const CandidateRays& chosen, std
         const std::uint32_t first = mixBits(s * kLightPoints + k);
         for (std::uint32_t i = 0; i < kStratum; ++i) {
             const LitPoint& point = found[k * kStratum + (first + i) % kStratum];
-            if (!isTogether(point, middle, s))
+            if (!isOnSameSide(point, middle, s))
                 continue;
             result[k] = point;
             break;

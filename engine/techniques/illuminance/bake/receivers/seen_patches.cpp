@@ -20,7 +20,7 @@ namespace limn {
 namespace {
 
 constexpr std::uint32_t kPicks = 16; ///< maximum number of places of a patch that are compared
-constexpr float kUnlike = 0.1f;      ///< difference in sky share that makes caches wrong
+constexpr float kMinError = 0.1f;    ///< difference in the share of the sky that counts as an error
 
 /// The point where a ray of a cache met a surfel's patch.
 struct PatchHit {
@@ -207,10 +207,10 @@ float cacheError(const PatchHits& patchHits, const Surfels& moved, std::uint32_t
     if (seen == 0 || !(sum > 0))
         return 0;
     const float visible = skyAt(patchHits, moved, s);
-    return std::abs(visible - read) < kUnlike ? 0 : (visible - read) * float(seen);
+    return std::abs(visible - read) < kMinError ? 0 : (visible - read) * float(seen);
 }
 
-/// A group of surfels that are close together, face alike, and whose caches are off in the same
+/// A group of surfels that are close together, face alike, and whose caches err in the same
 /// way.
 struct ErrorGroup {
     std::uint64_t key = 0;

@@ -45,7 +45,7 @@ struct Patches {
     void raiseSurfels();
     RaisedPoint raisedPoint(const MeshPoint& point, bool back, float height) const;
     RaisedPoint raisedCell(const MeshPoint& middle, float size, bool back, float height) const;
-    bool together(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t surfel) const;
+    bool onSameSide(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t surfel) const;
     std::uint32_t ownerOf(const MeshPoint& middle, float size, std::uint32_t nearestOwner,
                           bool back) const;
     std::uint32_t ownerAt(const MeshPoint& point, const RaisedPoint& from,
@@ -94,7 +94,7 @@ RaisedPoint Patches::raisedCell(const MeshPoint& middle, float size, bool back,
     return *first;
 }
 
-bool Patches::together(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t surfel) const {
+bool Patches::onSameSide(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t surfel) const {
     constexpr float kAlike = 0.5f; // cosine of 60 degrees
     ++rays;
     return clearAlong(trace, cell.position, raised[surfel], [&](const Hit& hit) {
@@ -119,7 +119,7 @@ std::uint32_t Patches::ownerAt(const MeshPoint& point, const RaisedPoint& from,
     const Scene& scene = trace.scene();
     const std::uint32_t first = back ? surfels().frontCount : 0;
     const glm::vec3 normal = worldPoint(scene, scene.instances[instance], point).normal;
-    if (together(from, normal, first + nearestOwner))
+    if (onSameSide(from, normal, first + nearestOwner))
         return first + nearestOwner;
     const Mesh& mesh = scene.meshOf(scene.instances[instance]);
     std::array<NearestPoint::Near, kCompared> near;
@@ -127,7 +127,7 @@ std::uint32_t Patches::ownerAt(const MeshPoint& point, const RaisedPoint& from,
         nearest.findSome(trianglePoint(mesh, point.triangle, point.barycentric),
                          triangleNormal(mesh, point.triangle), near);
     for (std::size_t k = 0; k < count; ++k)
-        if (near[k].point != nearestOwner && together(from, normal, first + near[k].point))
+        if (near[k].point != nearestOwner && onSameSide(from, normal, first + near[k].point))
             return first + near[k].point;
     return first + nearestOwner;
 }
@@ -170,13 +170,13 @@ std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& 
 }
 
 /// By two indices into MeshSurfels, the smaller one first: whether no wall stands between them.
-using PairsTogether = std::map<std::pair<std::uint32_t, std::uint32_t>, bool>;
+using PairsOnSameSide = std::map<std::pair<std::uint32_t, std::uint32_t>, bool>;
 
 /// Whether a wall may cross a cell: a wall stands between its owner and that of a cell beside it on
 /// the triangle. Answers for pairs of owners are kept in `pairs`.
 bool mayBeCrossed(const Patches& patches, const std::vector<std::uint32_t>& owner,
                   std::uint32_t triangle, const SurfelOwners::Cell& cell, bool back,
-                  PairsTogether& pairs) {
+                  PairsOnSameSide& pairs) {
     const SurfelOwners& owners = patches.owners;
     const std::uint32_t side = back ? owners.cells() : 0, surfel = owner[side + cell.index];
     const Surfels& s = patches.set.surfels;
@@ -192,8 +192,8 @@ bool mayBeCrossed(const Patches& patches, const std::vector<std::uint32_t>& owne
         const auto [pair, isNew] = pairs.try_emplace(std::minmax(surfel, beside));
         if (isNew)
             pair->second =
-                patches.together({patches.raised[pair->first.first], false},
-                                 s.normal[first + pair->first.first], pair->first.second);
+                patches.onSameSide({patches.raised[pair->first.first], false},
+                                   s.normal[first + pair->first.first], pair->first.second);
         if (!pair->second)
             return true;
     }
@@ -234,7 +234,7 @@ std::vector<std::uint32_t> splitCells(const Patches& patches, const Progress& pr
         found.emplace(entry, parts);
     };
     owners.forTriangles(scene.meshOf(instance), progress, [&](std::uint32_t t) {
-        PairsTogether pairs;
+        PairsOnSameSide pairs;
         owners.forCellsOf(t, [&](const SurfelOwners::Cell& cell) {
             for (const bool back : {false, true})
                 if ((!back || twoSided) && mayBeCrossed(patches, owner, t, cell, back, pairs))
