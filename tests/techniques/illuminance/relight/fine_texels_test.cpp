@@ -4,6 +4,7 @@
 
 #include "engine/lightmap/atlas.h"
 #include "engine/math/sampling.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "tests/core/sweep.h"
 #include "tests/techniques/illuminance/bake/house_on_ground.h"
 #include "tests/techniques/illuminance/relight/relit.h"

@@ -3,6 +3,7 @@
 
 #include "engine/core/result.h"
 #include "engine/lightmap/atlas.h"
+#include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/techniques/illuminance/relight/differing_caches.h"
 #include "tests/trace/simple_scene.h"
