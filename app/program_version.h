@@ -5,7 +5,7 @@
 
 namespace limn {
 
-/// What `limn --version` prints.
+/// What `limn --version` prints: the versions of the program and of its bakers.
 std::string programVersion();
 
 } // namespace limn

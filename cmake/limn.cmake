@@ -117,6 +117,7 @@ endfunction()
 
 # Lists a test with the program that must be built for it and the libraries that it tests, for tests/repo/select_tests.py.
 function(limn_list_test name program)
+  set_property(GLOBAL APPEND PROPERTY LIMN_TESTED ${ARGN})
   list(JOIN ARGN " " libraries)
   set_property(GLOBAL APPEND_STRING PROPERTY LIMN_TESTS "${name} ${program} ${libraries}\n")
 endfunction()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/read_bake_of.h"
 
+#include "engine/core/log.h"
+
 #include <fmt/format.h>
 
 namespace limn {
@@ -19,6 +21,8 @@ Result<std::shared_ptr<const Precomputed>> readBakeOf(Scene& scene, const std::s
                         file, sceneName));
     if (const std::string defect = (*read)->defect(scene); !defect.empty())
         return fail(fmt::format("{}: {}", file, defect));
+    for (const std::string& note : (*read)->report().notes)
+        logWarning(fmt::format("{}: {}", file, note));
     return read;
 }
 

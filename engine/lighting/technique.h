@@ -33,6 +33,8 @@ struct PrepareOptions {
 /// How a technique computes its data in advance, and what is known of that beforehand.
 struct Precomputation {
     const char* fileMark; ///< the first eight characters of its files, of no other technique
+    /// Version of what prepare() computes, which its files keep; 0: they keep none.
+    std::uint32_t version = 0;
     /// Hash of everything that prepare() reads. Lights, albedo and the places of dynamic objects
     /// are not part of it.
     std::uint64_t (*inputHash)(const Scene& scene);

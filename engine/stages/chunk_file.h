@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -21,6 +22,7 @@ namespace limn {
 struct ChunkFormat {
     const char* mark; ///< eight characters
     std::uint32_t version;
+    std::string_view optional = {}; ///< name of the chunk that older files lack; empty: none
 };
 
 /// Makes a file of chunks, each compressed when it is added.
@@ -44,6 +46,7 @@ public:
     /// more than `memory`.
     static Result<ChunkReader> open(const std::string& path, const ChunkFormat& format,
                                     const MemoryBudget& memory);
+    bool has(std::string_view name) const { return m_chunks.count(std::string(name)) > 0; }
     /// The bytes of a chunk. Fails if it is missing or its checksum does not match.
     Result<std::string> unpack(const char* name) const;
 
@@ -72,7 +75,8 @@ Result<void> writeChunks(const std::string& path, const ChunkFormat& format, con
     return writer.write(path);
 }
 
-/// Reads a value that writeChunks() wrote. Its rules are not checked.
+/// Reads a value that writeChunks() wrote. Its rules are not checked. Fields of an optional chunk
+/// that is missing keep their defaults.
 template <class T, class ForChunks>
 Result<T> readChunks(const std::string& path, const ChunkFormat& format, const MemoryBudget& memory,
                      const ForChunks& forChunks) {
@@ -82,7 +86,7 @@ Result<T> readChunks(const std::string& path, const ChunkFormat& format, const M
     T value;
     std::string defect;
     forChunks([&](const char* name, auto fields) {
-        if (!defect.empty())
+        if (!defect.empty() || (name == format.optional && !file->has(name)))
             return;
         const Result<std::string> plain = file->unpack(name);
         if (!plain) {

@@ -3,7 +3,7 @@
 """select_tests.py TESTS COMMIT: which test programs ./check runs under the sanitizers.
 
 TESTS is the list that CMake writes, build/PRESET/tests.txt: a line for each test with its name, the program that must be
-built for it, and the libraries that it tests. Selected are the programs that test a room whose files changed since COMMIT,
+built for it, and the libraries that it tests; and lines "library NAME PART..." for libraries that are no room. Selected are the programs that test a room whose files changed since COMMIT,
 or a room above it, and of all others every tenth, a different tenth at each commit. Prints "programs NAME...",
 "tests REGULAR-EXPRESSION" and lines of "# text" for people.
 """
@@ -81,7 +81,14 @@ def select(tests, rooms, changed, includers, share):
 
 
 def read_tests(text):
-    return {name: (program, libraries) for name, program, *libraries in map(str.split, text.splitlines())}
+    """{name: (program, libraries)}, where the parts of libraries that are no room are added."""
+    lines = [line.split() for line in text.splitlines()]
+    parts = {line[1]: line[2:] for line in lines if line[0] == "library"}
+
+    def rooms(libraries):
+        return [room for library in libraries for room in [library, *rooms(parts.get(library, []))]]
+
+    return {name: (program, rooms(libraries)) for name, program, *libraries in lines if name != "library"}
 
 
 def including_folders(changed):

@@ -29,7 +29,8 @@ TESTS = read_tests(
     "scene_a scene_tests limn_scene\n"
     "render_a render_tests limn_render\n"
     "deep_a render_deep_tests limn_deep\n"
-    "app_a app_tests limn_json limn_app\n"
+    "app_a app_tests limn_json the_program\n"
+    "library the_program limn_app\n"
     "fuzz_scene fuzz_scene limn_scene\n"
 )
 

@@ -32,6 +32,7 @@ static std::unique_ptr<Lighting> light(const Prepared& prepared) {
 }
 
 static constexpr Precomputation kPrecomputation = {.fileMark = kBakeMark,
+                                                   .version = kBakerVersion,
                                                    .inputHash = bakeInputHash,
                                                    .predict = predictIlluminance,
                                                    .preview = previewSettings,

@@ -391,6 +391,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     if (const Result<void> linked = linkCaches(run, hits, *traced); !linked)
         return tl::make_unexpected(linked.error());
     Bake& result = run.bake;
+    result.baker = kBakerVersion;
     result.lightmap = std::move(run.placed.atlas.layout);
     result.surfels = std::move(run.set.surfels);
     result.counts = countOf(scene, result, run.rays);

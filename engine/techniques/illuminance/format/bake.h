@@ -89,10 +89,15 @@ struct BakeCounts {
 /// Number of depths around each of the grid's cells.
 inline constexpr std::uint32_t kDepthsPerCell = GRID_DEPTH_SIDE * GRID_DEPTH_SIDE;
 
+/// Version of what the stages of a bake compute. Raise it whenever a change of one makes the light
+/// of bakes that were made before worse than that of new ones. Files without it count as 0.
+inline constexpr std::uint32_t kBakerVersion = 1;
+
 /// Everything that relighting needs. The same document gives the same bytes at any number of
 /// threads.
 struct Bake {
     BakeSettings settings;
+    std::uint32_t baker = 0; ///< kBakerVersion of the program that made it; not part of the hash
     std::uint64_t sceneHash = 0; ///< bakeInputHash() of the baked scene
     LightmapLayout lightmap;
     glm::uvec3 gridSize{0};
@@ -110,7 +115,7 @@ struct Bake {
     /// re-traced". Not part of the hash or the file.
     std::vector<std::string> notes;
 
-    /// Hash of everything but `counts`, `seconds`, `keptStages` and `notes`. It is equal for equal
+    /// Hash of everything but `baker`, `counts`, `seconds`, `keptStages` and `notes`. It is equal for equal
     /// documents, whatever the stage store held.
     std::uint64_t hash() const;
 };

@@ -9,9 +9,12 @@
 
 namespace limn {
 
-static constexpr ChunkFormat kFormat = {kBakeMark, 7};
+static constexpr ChunkFormat kFormat = {kBakeMark, 7, "BAKER   "};
 
-static constexpr auto kForChunks = [](const auto& visit) { forBakeChunks(nullptr, visit); };
+static constexpr auto kForChunks = [](const auto& visit) {
+    forBakeChunks(nullptr, visit);
+    visit("BAKER   ", [](auto& a, auto& bake) { a("baker", bake.baker, rule::any); });
+};
 
 Result<void> writeBake(const std::string& path, const Bake& bake) {
     return writeChunks(path, kFormat, bake, kForChunks);
@@ -23,6 +26,11 @@ Result<Bake> readBake(const std::string& path, const MemoryBudget& memory) {
         return bake;
     if (const std::string defect = bakeDefect(*bake, nullptr); !defect.empty())
         return fail(fmt::format("{}: {}", path, defect));
+    if (bake->baker < kBakerVersion)
+        bake->notes.push_back(fmt::format(
+            "made by version {} of the baker; this Limn has version {}, whose light is closer to "
+            "the truth: bake again",
+            bake->baker, kBakerVersion));
     return bake;
 }
 

@@ -59,6 +59,42 @@ protected:
     }
 };
 
+TEST_F(BakeFile, SaysWhetherAnOlderBakerMadeIt) {
+    ASSERT_TRUE(writeBake(path, baked));
+    const Result<Bake> current = readBake(path);
+    ASSERT_TRUE(current);
+    EXPECT_EQ(current->baker, kBakerVersion);
+    EXPECT_TRUE(current->notes.empty());
+
+    baked.baker = kBakerVersion - 1;
+    ASSERT_TRUE(writeBake(path, baked));
+    const Result<Bake> older = readBake(path);
+    ASSERT_TRUE(older);
+    ASSERT_EQ(older->notes.size(), 1);
+    EXPECT_NE(older->notes[0].find("bake again"), std::string::npos);
+    EXPECT_EQ(older->hash(), current->hash());
+}
+
+// Files of Limn 0.1 have no such chunk.
+TEST_F(BakeFile, OfABakerThatKeptNoVersionIsReadAsTheOldest) {
+    ASSERT_TRUE(writeBake(path, baked));
+    std::string bytes = contents();
+    const std::size_t name = bytes.find("BAKER   ");
+    ASSERT_NE(name, std::string::npos);
+    std::uint64_t packed = 0;
+    std::memcpy(&packed, bytes.data() + name + 16, 8);
+    bytes.erase(name, 32 + packed);
+    std::uint32_t count = 0;
+    std::memcpy(&count, bytes.data() + 12, 4);
+    --count;
+    std::memcpy(bytes.data() + 12, &count, 4);
+    overwrite(bytes);
+    const Result<Bake> read = readBake(path);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->baker, 0);
+    EXPECT_EQ(read->notes.size(), 1);
+}
+
 TEST_F(BakeFile, LoadsBackToIdenticalResults) {
     ASSERT_TRUE(writeBake(path, baked));
     const Result<Bake> loaded = readBake(path);
