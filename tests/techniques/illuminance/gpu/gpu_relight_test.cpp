@@ -199,8 +199,8 @@ TEST_F(GpuRelight, AClosedGlowingRoomReachesItsRadiosityAtEveryBandCount) {
     b.addMaterial(simple::lambert(glm::vec3(0.5f), glm::vec3(1)));
     b.add(simple::box(glm::vec3(0), glm::vec3(4, 3, 5), true));
     Scene room = b.build();
-    room.bake.surfels = 300;
-    room.bake.lightmapCaches = 250;
+    room.bake.surfels = 100;
+    room.bake.lightmapCaches = 80;
     room.bake.rays = 128;
     room.bake.links = 64;
     room.bake.grid = {2, 2, 2};

@@ -84,7 +84,7 @@ TEST_F(ViewportSurfelLight, DiffersFromThatOfRaysOnlyAtTheEdgesOfShadows) {
     for (const LightKind kind : {LightKind::Directional, LightKind::Point, LightKind::Spot}) {
         Scene shaded = court();
         shaded.lights = {lightOf(kind)};
-        shaded.bake.surfels = 4000;
+        shaded.bake.surfels = 1500;
         prepare(shaded);
         const std::vector<glm::vec3> E = irradiance(), expected = traced();
         std::size_t lit = 0, dark = 0, differ = 0;
@@ -119,7 +119,7 @@ ShadowError errorOf(const std::vector<glm::vec3>& E, const std::vector<float>& t
 TEST_F(ViewportSurfelLight, ThatOfARectangleDiffersFromThatOfRaysByTheNoiseOfItsShadow) {
     Scene shaded = court();
     shaded.lights = {lightOf(LightKind::Rectangle)};
-    shaded.bake.surfels = 4000;
+    shaded.bake.surfels = 1500;
     prepare(shaded);
     const LightRectangle rectangle = lightRectangle(shaded.lights[0]);
     std::vector<float> truth;

@@ -7,6 +7,7 @@
 #include "engine/techniques/illuminance/relight/surfel_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 #include "tests/gpu/test_device.h"
+#include "tests/techniques/illuminance/shared_bake.h"
 #include "tests/trace/simple_scene.h"
 
 #include <algorithm>
@@ -73,10 +74,9 @@ inline Scene court(const Mesh& object = simple::sphere(0.1f, 0, false, 0)) {
     return scene;
 }
 
+/// A copy, which the test may change, of the bake that the program made of these inputs.
 inline std::shared_ptr<Bake> baked(const TraceScene& trace, const BakeSettings& settings) {
-    Result<Bake> made = bake(trace, {}, nullptr, &settings);
-    EXPECT_TRUE(made) << (made ? "" : made.error().message);
-    return std::make_shared<Bake>(made ? std::move(*made) : Bake{});
+    return std::make_shared<Bake>(*sharedBake(trace, settings));
 }
 
 inline std::unique_ptr<GpuRelighter> gpuRelighter(gpu::Device& device,

@@ -107,7 +107,10 @@ TEST(FineTexels, AreNotThereWhereTheGroundIsNoWiderThanTheHouse) {
     b.addMaterial(simple::lambert(glm::vec3(0.5f)));
     b.add(simple::box(glm::vec3(0), glm::vec3(6, 3, 5), true));
     b.add(simple::box(glm::vec3(2, 0.1f, 2), glm::vec3(3, 1, 3), false));
-    const Scene scene = b.build();
+    Scene scene = b.build();
+    scene.bake.lightmapCaches = 3000;
+    scene.bake.surfels = 500;
+    scene.bake.rays = 32;
     const Bake bake = *limn::bake(TraceScene(scene));
     EXPECT_TRUE(std::ranges::none_of(
         bake.lightmap.snaps, [](std::uint32_t s) { return s != ~0U && (s & kFineLookup) != 0; }));

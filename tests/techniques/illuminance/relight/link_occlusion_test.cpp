@@ -8,6 +8,7 @@
 #include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/occlusion/link_cone.h"
 #include "engine/techniques/illuminance/relight/relight.h"
+#include "tests/techniques/illuminance/shared_bake.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -54,9 +55,7 @@ glm::mat4 moved(glm::vec3 by) {
 }
 
 std::shared_ptr<const Bake> baked(const Scene& scene) {
-    Result<Bake> made = bake(TraceScene(scene));
-    EXPECT_TRUE(made) << (made ? "" : made.error().message);
-    return std::make_shared<const Bake>(std::move(*made));
+    return sharedBake(TraceScene(scene));
 }
 
 /// The share of the light from all round that a lightmap cache gets past the dynamic objects.

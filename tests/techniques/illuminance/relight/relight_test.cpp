@@ -8,6 +8,7 @@
 #include "engine/math/ycocg.h"
 #include "engine/techniques/illuminance/bake/baker.h"
 #include "tests/core/sweep.h"
+#include "tests/techniques/illuminance/shared_bake.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -33,10 +34,7 @@ Lit light(Scene scene, std::uint32_t rounds = 400, LitBands bands = LitBands::Al
     Lit lit;
     lit.scene = std::move(scene);
     lit.trace = std::make_unique<TraceScene>(lit.scene);
-    Result<Bake> baked = bake(*lit.trace);
-    EXPECT_TRUE(baked) << (baked ? "" : baked.error().message);
-    lit.relighter =
-        std::make_unique<Relighter>(std::make_shared<const Bake>(std::move(*baked)), bands);
+    lit.relighter = std::make_unique<Relighter>(sharedBake(*lit.trace), bands);
     lit.stats = lit.relighter->relight(lit.scene, *lit.trace, rounds);
     return lit;
 }
@@ -67,6 +65,9 @@ TEST(Furnace, ClosedRoomReachesItsRadiosityAtEveryBandCount) {
             for (const float albedo : {0.f, 0.5f, 0.9f}) {
                 Scene scene = furnace(albedo, 1, bands);
                 scene.bake.storage = storage;
+                scene.bake.surfels = 300;
+                scene.bake.lightmapCaches = 250;
+                scene.bake.rays = 128;
                 const Lit lit = light(std::move(scene));
                 const double expected = kPi / (1 - double(albedo));
                 const std::uint32_t surfels = lit.relighter->bake().tree.surfels;
@@ -426,9 +427,13 @@ TEST(Bake, SameBytesAtOneAndTwoThreads) {
             const ThreadLimit limit(threads);
             Scene scene = lampRoom();
             scene.bake.storage = storage;
-            const Lit lit = light(std::move(scene));
-            hash[threads - 1] = lit.relighter->bake().hash();
-            sh[threads - 1] = lit.relighter->cacheSh();
+            const TraceScene trace(scene);
+            Result<Bake> baked = bake(trace); // not one that is shared
+            ASSERT_TRUE(baked) << baked.error().message;
+            Relighter relighter(std::make_shared<const Bake>(std::move(*baked)), LitBands::All);
+            relighter.relight(scene, trace, 400);
+            hash[threads - 1] = relighter.bake().hash();
+            sh[threads - 1] = relighter.cacheSh();
         }
         EXPECT_EQ(hash[0], hash[1]);
         EXPECT_TRUE(sh[0] == sh[1]);

@@ -4,6 +4,7 @@
 #include "engine/math/sh.h"
 #include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
+#include "tests/techniques/illuminance/shared_bake.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +14,7 @@
 namespace limn {
 
 inline std::shared_ptr<const Bake> bakeOf(const TraceScene& trace) {
-    Result<Bake> made = bake(trace);
-    EXPECT_TRUE(made) << made.error().message;
-    return std::make_shared<const Bake>(std::move(*made));
+    return sharedBake(trace);
 }
 
 /// A bake whose surfels are lit at their middles alone, as those of older transport files are.
@@ -26,7 +25,7 @@ inline std::shared_ptr<const Bake> bakeOfMiddles(const TraceScene& trace) {
     return std::make_shared<const Bake>(std::move(made));
 }
 
-/// A scene with a bake of its own, lit until bounces change nothing, in 3 bands.
+/// A scene with its bake, lit until bounces change nothing, in 3 bands.
 struct Relit {
     explicit Relit(const Scene& scene) : trace(scene) { relighter.relight(scene, trace, 64); }
 

@@ -6,6 +6,7 @@
 #include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/techniques/illuminance/relight/differing_caches.h"
+#include "tests/techniques/illuminance/shared_bake.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -61,9 +62,7 @@ std::vector<Camera> cameras() {
 
 struct Baked {
     explicit Baked(Scene made) : scene(std::move(made)), trace(scene) {
-        Result<Bake> result = limn::bake(trace);
-        EXPECT_TRUE(result) << (result ? "" : result.error().message);
-        bake = std::make_shared<const Bake>(std::move(*result));
+        bake = sharedBake(trace);
         footprints = cacheFootprints(scene, *bake);
     }
     CacheFlags seen(const Camera& camera, float aspect = 1.5f) const {
@@ -120,7 +119,7 @@ TEST(SeenCaches, HaveAllThatAPictureLooksUpAndNotMuchMore) {
 
 // The blocks of finer texels lie directly below the charts of the atlas, which must not claim them.
 TEST(SeenCaches, HaveTheFinerTexelsThatAPictureLooksUp) {
-    for (std::uint32_t texels = 1200; texels <= 2800; texels += 400) {
+    for (std::uint32_t texels = 1200; texels <= 2800; texels += 800) {
         Scene scene = room();
         scene.materials.push_back(lambert(glm::vec3(0), glm::vec3(1)));
         const auto lamp = std::uint32_t(scene.materials.size() - 1);
