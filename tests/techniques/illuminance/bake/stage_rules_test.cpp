@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
 Scene smallRoom(float blockAt) {
     Scene scene =
         stagedRoom({.low = glm::translate(glm::mat4(1), glm::vec3(blockAt, 0, 1)), .wall = true});
-    scene.bake.surfels = 300;
+    scene.bake.surfels = 100;
     scene.bake.texelsPerMetre = 0;
-    scene.bake.lightmapCaches = 150;
+    scene.bake.lightmapCaches = 64;
     scene.bake.rays = 32;
     scene.bake.links = 12;
     scene.bake.grid = {2, 2, 2};
@@ -97,8 +97,8 @@ TEST_F(KeptStages, WhatIsOutOfRangeIsMadeAgain) {
 
 TEST_F(KeptStages, SkyThroughAWindowThatIsOutOfRangeIsMadeAgain) {
     Scene scene = roomWithWindow(1);
-    scene.bake.surfels = 300;
-    scene.bake.lightmapCaches = 600;
+    scene.bake.surfels = 100;
+    scene.bake.lightmapCaches = 150;
     scene.bake.rays = 32;
     scene.bake.links = 12;
     expectMadeAgain(scene);

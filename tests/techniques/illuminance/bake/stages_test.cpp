@@ -22,6 +22,7 @@
 #include <random>
 #include <string_view>
 #include <thread>
+#include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <unistd.h>
@@ -135,23 +136,27 @@ TEST(Stages, OtherRaysTraceEverything) {
 }
 
 TEST(Stages, MovingABlockTracesOnlyWhatMeetsItAndEqualsAFullBake) {
+    const glm::mat4 low = Blocks().low;
+    const glm::mat4 moves[] = {
+        glm::translate(low, glm::vec3(0.1f, 0, 0.3f)), glm::rotate(low, 0.4f, glm::vec3(0, 1, 0)),
+        glm::translate(low, glm::vec3(-1.2f, 0.7f, 1)), // into the other block
+    };
+    std::vector<Scene> scenes;
+    std::vector<Bake> full;
+    std::vector<std::uint64_t> looks;
+    for (const glm::mat4& move : moves) {
+        scenes.push_back(stagedRoom({.low = move}));
+        full.push_back(baked(scenes.back()));
+        looks.push_back(looksOf(scenes.back()) + lightPointRaysOf(full.back()));
+    }
     for (const int threads : {1, 2}) {
         const ThreadLimit limit(threads);
         StageStore store;
-        Blocks blocks;
-        const Bake start = baked(stagedRoom(blocks), &store);
-        const glm::mat4 moves[] = {
-            glm::translate(blocks.low, glm::vec3(0.1f, 0, 0.3f)),
-            glm::rotate(blocks.low, 0.4f, glm::vec3(0, 1, 0)),
-            glm::translate(blocks.low, glm::vec3(-1.2f, 0.7f, 1)), // into the other block
-        };
-        for (const glm::mat4& move : moves) {
-            blocks.low = move;
-            const Bake moved = baked(stagedRoom(blocks), &store);
-            const Bake full = baked(stagedRoom(blocks));
-            EXPECT_EQ(moved.hash(), full.hash());
-            const std::uint64_t looks = looksOf(stagedRoom(blocks)) + lightPointRaysOf(full);
-            EXPECT_LT(moved.counts.rays - looks, (full.counts.rays - looks) / 2);
+        const Bake start = baked(stagedRoom({}), &store);
+        for (std::size_t k = 0; k < scenes.size(); ++k) {
+            const Bake moved = baked(scenes[k], &store);
+            EXPECT_EQ(moved.hash(), full[k].hash());
+            EXPECT_LT(moved.counts.rays - looks[k], (full[k].counts.rays - looks[k]) / 2);
             EXPECT_NE(notesOf(moved).find("1 instance moved: "), std::string::npos)
                 << notesOf(moved);
         }
@@ -280,8 +285,9 @@ TEST(Stages, ASmallMoveKeepsOnlyTheCachesItChangedAndEqualsAFullBakeWithoutTheRe
     std::uintmax_t all = 0, added = 0;
     for (const auto& [name, size] : before)
         all += size;
+    const std::uint64_t last = baked(rooms(8.3f)).hash();
     for (const float x : {8.2f, 8.3f}) // the second patches what is patched already
-        EXPECT_EQ(bakeWith(rooms(x)).hash(), baked(rooms(x)).hash());
+        EXPECT_EQ(bakeWith(rooms(x)).hash(), x == 8.3f ? last : baked(rooms(x)).hash());
     for (const auto& [name, size] : filesOf(folder))
         added += before.contains(name) ? 0 : size;
     EXPECT_LT(added, all); // of two moves
@@ -289,7 +295,7 @@ TEST(Stages, ASmallMoveKeepsOnlyTheCachesItChangedAndEqualsAFullBakeWithoutTheRe
         fs::remove(name);
     const Bake again = bakeWith(rooms(8.3f));
     EXPECT_GT(again.counts.rays, 0U) << "the files removed were not needed";
-    EXPECT_EQ(again.hash(), baked(rooms(8.3f)).hash());
+    EXPECT_EQ(again.hash(), last);
     fs::remove_all(folder);
 }
 
@@ -354,14 +360,14 @@ TEST(Stages, OneSideMoreOrAHoleIsMet) {
 
 TEST(Stages, CancelledAtAnyMomentTheNextBakeEqualsTheUndisturbedOne) {
     Scene scene = stagedRoom({});
-    scene.bake.rays = 4096;
+    scene.bake.rays = 1024;
     const auto start = std::chrono::steady_clock::now();
     const Bake undisturbed = baked(scene);
     const auto whole = std::chrono::steady_clock::now() - start;
     StageStore store;
     std::mt19937 random(3);
     int cancelled = 0;
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 8; ++i) {
         std::atomic<bool> cancel = false;
         std::jthread stopper([&, delay = whole * (random() % 100) / 100] {
             std::this_thread::sleep_for(delay);
