@@ -22,7 +22,7 @@ namespace {
 
 /// Surfels of a scene's bakes. Each number places them anew, in small patches of light or beside
 /// them, which alone changes the bias of such a coarse bake by 1 to 2 %.
-constexpr std::uint32_t kSurfels[] = {3900, 4000, 4096, 4200};
+constexpr std::uint32_t kSurfels[] = {3900, 4200};
 
 /// Means over a scene's bakes.
 struct Figures {
@@ -84,7 +84,7 @@ struct Ceiling {
 
 /// No scene may get worse. The ceiling of the bias was set from ten bakes of 3600 to 4500 surfels
 /// and references of up to eight times the samples: their mean plus 0.003, or plus the standard
-/// deviation of one bake where that is more; a mean of four bakes deviates by half of it. The
+/// deviation of one bake where that is more; a mean of two bakes deviates by 0.7 of it. The
 /// ceiling of the nRMSE is a tenth above what was measured when it was set. A change that makes a
 /// scene better may lower them.
 /// Errors are those of a coarse bake, and no promise of what default settings give. Houses on large

@@ -50,7 +50,10 @@ TEST_P(WallLeak, IsBelowOnePerCentForWallsOfAnyThickness) {
 
 INSTANTIATE_TEST_SUITE_P(Walls, WallLeak,
                          testing::Combine(testing::Values(0.f, 0.001f, 0.01f, 0.1f, 1.f),
-                                          testing::Values(500U, 1000U, 4000U)));
+                                          testing::Values(500U, 1000U)));
+// Finer texels keep walls apart more easily: the sheet and the thinnest solid stand for the rest.
+INSTANTIATE_TEST_SUITE_P(WallsOfFineTexels, WallLeak,
+                         testing::Combine(testing::Values(0.f, 0.001f), testing::Values(4000U)));
 
 } // namespace
 } // namespace limn::wall_leak_test
