@@ -65,8 +65,7 @@ TEST(Furnace, ClosedRoomReachesItsRadiosityAtEveryBandCount) {
             for (const float albedo : {0.f, 0.5f, 0.9f}) {
                 Scene scene = furnace(albedo, 1, bands);
                 scene.bake.storage = storage;
-                scene.bake.surfels = 300;
-                scene.bake.lightmapCaches = 250;
+                scene.bake.surfels = 300, scene.bake.lightmapCaches = 250;
                 scene.bake.rays = 128;
                 const Lit lit = light(std::move(scene));
                 const double expected = kPi / (1 - double(albedo));
