@@ -22,7 +22,10 @@
 namespace limn::explain_pixel_test {
 namespace {
 
-constexpr std::uint32_t kWidth = 60, kHeight = 45;
+constexpr std::uint32_t kWidth = 40, kHeight = 30;
+
+/// Pictures and explanations take the same samples, so that few of them show whether they agree.
+constexpr std::uint32_t kSamples = 4;
 
 ConvergedLight light(const Scene& unlit, const Precomputed* known = nullptr) {
     const auto scene = std::make_shared<const Scene>(unlit);
@@ -37,7 +40,11 @@ ConvergedLight light(const Scene& unlit, const Precomputed* known = nullptr) {
 }
 
 FieldRenderOptions pictureOf(const Camera& camera, View view) {
-    return {.view = view, .camera = camera, .width = kWidth, .height = kHeight};
+    return {.view = view,
+            .camera = camera,
+            .width = kWidth,
+            .height = kHeight,
+            .samplesPerPixel = kSamples};
 }
 
 /// The picture that renderField() draws, without the noise of choosing one light for each sample:
@@ -45,16 +52,17 @@ FieldRenderOptions pictureOf(const Camera& camera, View view) {
 std::vector<glm::vec3> picture(const ConvergedLight& lit, const Camera& camera) {
     Scene rest = *lit.scene;
     rest.lights.clear();
-    std::vector<glm::vec3> sum =
-        renderField(TraceScene(rest), lit.field(), *lit.layout, pictureOf(camera, View::Lit)).rgb;
+    std::vector<glm::vec3> sum = renderField(TraceScene(rest, *lit.trace), lit.field(), *lit.layout,
+                                             pictureOf(camera, View::Lit))
+                                     .rgb;
     for (const Light& one : lit.scene->lights) {
         Scene alone = *lit.scene;
         alone.sky = {};
         alone.lights = {one};
         for (Material& m : alone.materials)
             m.emission = glm::vec3(0);
-        const ImageF direct = renderField(TraceScene(alone), IndirectField{}, *lit.layout,
-                                          pictureOf(camera, View::Lit));
+        const ImageF direct = renderField(TraceScene(alone, *lit.trace), IndirectField{},
+                                          *lit.layout, pictureOf(camera, View::Lit));
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] += direct.rgb[i];
     }
@@ -75,7 +83,12 @@ std::vector<Pixel> randomPixels(std::size_t count) {
 }
 
 PixelQuestion questionOf(const Camera& camera, Pixel p) {
-    return {.camera = camera, .width = kWidth, .height = kHeight, .x = p.x, .y = p.y};
+    return {.camera = camera,
+            .width = kWidth,
+            .height = kHeight,
+            .x = p.x,
+            .y = p.y,
+            .samples = kSamples};
 }
 
 /// Within a share of the value, or of a hundredth of the picture's mean where a pixel is nearly
@@ -170,10 +183,15 @@ const LightRow* rowOf(const std::vector<LightRow>& rows, LightRowKind kind, std:
     return nullptr;
 }
 
+const Precomputed& bakeOfCornellBox() {
+    static const ConvergedLight lit = light(sample("cornell"));
+    return *lit.prepared.data;
+}
+
 TEST(ExplainPixel, SumsToThePictureOfTheCornellBox) {
     Scene scene = sample("cornell");
     addLights(scene);
-    expectPicture(light(scene), chooseCamera(scene, {}));
+    expectPicture(light(scene, &bakeOfCornellBox()), chooseCamera(scene, {}));
 }
 
 TEST(ExplainPixel, SumsToThePictureOfTheAtrium) {
@@ -223,8 +241,16 @@ Scene mixedRoom(LinkStorage storage, std::uint32_t bands, std::uint32_t chromaBa
     scene.lights[0].strength = 5;
     scene.sky.radiance = {0.5f, 1, 2};
     scene.bake.lightmapCaches = 1000;
+    scene.bake.rays = 64;
+    scene.bake.links = 32;
     scene.bake.chromaBands = chromaBands;
     return scene;
+}
+
+/// Bakes hold no light, so that the tests that differ in lights alone share one.
+const Precomputed& bakeOfMixedRoom() {
+    static const ConvergedLight lit = light(mixedRoom(LinkStorage::Rtp, 3, 0));
+    return *lit.prepared.data;
 }
 
 Camera inMixedRoom() {
@@ -243,7 +269,7 @@ TEST(ExplainPixel, SumsInEveryStorageWithGreyBandsAndWithWhatMoves) {
             Scene scene = mixedRoom(storage, 4, chroma);
             scene.materials[1].metallic = 1;
             scene.materials[1].roughness = 0.4f;
-            expectPicture(light(scene), inMixedRoom(), kSanitized ? 4 : 20);
+            expectPicture(light(scene), inMixedRoom(), kSanitized ? 4 : 8);
         }
 }
 
@@ -251,9 +277,9 @@ TEST(ExplainPixel, FollowsNoMoreBouncesThanTheDocumentAsksFor) {
     for (const std::uint32_t bounces : {1U, 2U}) {
         Scene scene = mixedRoom(LinkStorage::Rtp, 3, 0);
         scene.relight.maxBounces = bounces;
-        const ConvergedLight lit = light(scene);
+        const ConvergedLight lit = light(scene, &bakeOfMixedRoom());
         expectPicture(lit, inMixedRoom(), 20);
-        const PixelExplanation e = explainPixel(lit, questionOf(inMixedRoom(), {30, 22}));
+        const PixelExplanation e = explainPixel(lit, questionOf(inMixedRoom(), {20, 15}));
         EXPECT_EQ(e.tables.bounces, bounces);
         for (const LightRow& row : e.tables.byOrigin)
             EXPECT_NE(row.kind, LightRowKind::Remainder);
@@ -261,8 +287,8 @@ TEST(ExplainPixel, FollowsNoMoreBouncesThanTheDocumentAsksFor) {
 }
 
 TEST(ExplainPixel, NamesEveryOrigin) {
-    const ConvergedLight lit = light(mixedRoom(LinkStorage::Rtp, 3, 0));
-    const PixelExplanation e = explainPixel(lit, questionOf(inMixedRoom(), {30, 40}));
+    const ConvergedLight lit = light(mixedRoom(LinkStorage::Rtp, 3, 0), &bakeOfMixedRoom());
+    const PixelExplanation e = explainPixel(lit, questionOf(inMixedRoom(), {20, 27}));
     const std::vector<LightRow>& rows = e.tables.byOrigin;
     for (const auto& [kind, index] :
          {std::pair(LightRowKind::Light, 0U), std::pair(LightRowKind::Sky, LightRow::kNone),
@@ -277,7 +303,7 @@ TEST(ExplainPixel, NamesEveryOrigin) {
 }
 
 TEST(ExplainPixel, IrradianceIsWhatArrivesBeforeTheSurfaceReflectsIt) {
-    const ConvergedLight lit = light(mixedRoom(LinkStorage::Rtp, 3, 0));
+    const ConvergedLight lit = light(mixedRoom(LinkStorage::Rtp, 3, 0), &bakeOfMixedRoom());
     const Camera camera = inMixedRoom();
     const auto draw = [&](View view) {
         return renderField(*lit.trace, lit.field(), *lit.layout, pictureOf(camera, view)).rgb;
@@ -304,7 +330,7 @@ TEST(ExplainPixel, WithoutTheRowsOfALightItIsThePictureWithoutTheLight) {
     Scene scene = sample("cornell");
     addLights(scene);
     const Camera camera = chooseCamera(scene, {});
-    const ConvergedLight lit = light(scene);
+    const ConvergedLight lit = light(scene, &bakeOfCornellBox());
     for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
         SCOPED_TRACE(scene.lights[l].name);
         Scene without = scene;
@@ -326,26 +352,29 @@ Scene roomWithALowLamp() {
     return scene;
 }
 
-constexpr std::uint32_t kNear = 4;
+// Few samples of a pixel meet a near surface, or find light that the field lacks.
+constexpr std::uint32_t kNear = 4, kNearSamples = 16, kGatheredSamples = 8;
 
 std::vector<glm::vec3> pictureWithNearLight(const ConvergedLight& lit) {
     FieldRenderOptions options = pictureOf(inMixedRoom(), View::Lit);
     options.nearRays = kNear;
+    options.samplesPerPixel = kNearSamples;
     return renderField(*lit.trace, lit.field(), *lit.layout, options).rgb;
 }
 
 PixelQuestion questionWithNearLight(Pixel p) {
     PixelQuestion question = questionOf(inMixedRoom(), p);
     question.nearRays = kNear;
+    question.samples = kNearSamples;
     return question;
 }
 
 TEST(ExplainPixel, SumsToThePictureWithLightFromNearSurfaces) {
-    const ConvergedLight lit = light(roomWithALowLamp());
+    const ConvergedLight lit = light(roomWithALowLamp(), &bakeOfMixedRoom());
     const std::vector<glm::vec3> shown = pictureWithNearLight(lit);
     const double mean = meanOf(shown);
     std::size_t near = 0;
-    for (const Pixel p : randomPixels(100)) {
+    for (const Pixel p : randomPixels(160)) {
         SCOPED_TRACE(testing::Message() << "pixel " << p.x << ", " << p.y);
         const PixelExplanation e = explainPixel(lit, questionWithNearLight(p));
         expectSame(totalOf(e.tables.byOrigin), shown[p.index()], 0.01, mean, "by origin");
@@ -363,6 +392,7 @@ TEST(ExplainPixel, SumsToThePictureWithLightFromNearSurfaces) {
 FieldRenderOptions gathered(const ConvergedLight& lit, View view) {
     FieldRenderOptions options = pictureOf(inMixedRoom(), view);
     options.nearRays = kNear;
+    options.samplesPerPixel = kGatheredSamples;
     options.gatherRays = 4;
     options.emitted = lit.lighting->emittedField(*lit.scene);
     return options;
@@ -370,6 +400,7 @@ FieldRenderOptions gathered(const ConvergedLight& lit, View view) {
 
 PixelQuestion gatheredQuestion(Pixel p, PixelLight light) {
     PixelQuestion question = questionWithNearLight(p);
+    question.samples = kGatheredSamples;
     question.gatherRays = 4;
     question.light = light;
     return question;
@@ -378,7 +409,7 @@ PixelQuestion gatheredQuestion(Pixel p, PixelLight light) {
 TEST(ExplainPixel, SumsToThePictureThatIsGathered) {
     for (const std::uint32_t bands : {3U, 4U}) {
         Scene scene = mixedRoom(LinkStorage::Rtp, bands, 0);
-        const ConvergedLight lit = light(scene);
+        const ConvergedLight lit = bands == 3 ? light(scene, &bakeOfMixedRoom()) : light(scene);
         const ImageF shown = renderField(*lit.trace, lit.field(), *lit.layout,
                                          gathered(lit, View::Irradiance)),
                      seen = renderField(*lit.trace, lit.field(), *lit.layout,
@@ -418,7 +449,7 @@ TEST(ExplainPixel, SumsToThePictureThatIsGathered) {
 
 TEST(ExplainPixel, WithoutALightNearSurfacesLackItToo) {
     const Scene scene = roomWithALowLamp();
-    const ConvergedLight lit = light(scene);
+    const ConvergedLight lit = light(scene, &bakeOfMixedRoom());
     Scene without = scene;
     without.lights.clear();
     const std::vector<glm::vec3> shown =
@@ -433,7 +464,7 @@ TEST(ExplainPixel, WithoutALightNearSurfacesLackItToo) {
 
 TEST(ExplainPixel, WithoutTheSkyItIsThePictureWithoutTheSky) {
     const Scene scene = mixedRoom(LinkStorage::Rtp, 3, 0);
-    const ConvergedLight lit = light(scene);
+    const ConvergedLight lit = light(scene, &bakeOfMixedRoom());
     Scene without = scene;
     without.sky = {};
     const std::vector<glm::vec3> shown =
@@ -448,7 +479,7 @@ TEST(ExplainPixel, WithoutTheSkyItIsThePictureWithoutTheSky) {
 TEST(ExplainPixel, WithABlackObjectItIsThePictureWithThatObjectBlack) {
     Scene scene = sample("cornell");
     const Camera camera = chooseCamera(scene, {});
-    const ConvergedLight lit = light(scene);
+    const ConvergedLight lit = light(scene, &bakeOfCornellBox());
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         SCOPED_TRACE(testing::Message() << "instance " << i);
         Scene black = scene;
@@ -465,8 +496,8 @@ TEST(ExplainPixel, WithABlackObjectItIsThePictureWithThatObjectBlack) {
 }
 
 TEST(ExplainPixel, IsTheSameForAnyNumberOfThreads) {
-    const ConvergedLight lit = light(mixedRoom(LinkStorage::Rtp, 3, 0));
-    const PixelQuestion question = questionOf(inMixedRoom(), {30, 40});
+    const ConvergedLight lit = light(mixedRoom(LinkStorage::Rtp, 3, 0), &bakeOfMixedRoom());
+    const PixelQuestion question = questionOf(inMixedRoom(), {20, 27});
     const PixelExplanation all = explainPixel(lit, question);
     const ThreadLimit one(1);
     const PixelExplanation same = explainPixel(lit, question);
@@ -480,7 +511,7 @@ TEST(ExplainPixel, AmbientLightIsOneRow) {
     scene.technique.technique = "ambient";
     const ConvergedLight lit = light(scene);
     expectPicture(lit, inMixedRoom());
-    const PixelExplanation e = explainPixel(lit, questionOf(inMixedRoom(), {30, 40}));
+    const PixelExplanation e = explainPixel(lit, questionOf(inMixedRoom(), {20, 27}));
     const LightRow* sky = rowOf(e.tables.bySender, LightRowKind::Sky, LightRow::kNone, "Indirect");
     ASSERT_TRUE(sky);
     EXPECT_GT(sky->value.y, 0);
@@ -503,8 +534,8 @@ TEST(ExplainPixel, WhereNothingIsSeenTheSkyBehindIsAll) {
     Camera away = inMixedRoom();
     away.eye = {10, 10, 10};
     away.target = {20, 20, 20};
-    const ConvergedLight lit = light(scene);
-    const PixelExplanation e = explainPixel(lit, questionOf(away, {30, 22}));
+    const ConvergedLight lit = light(scene, &bakeOfMixedRoom());
+    const PixelExplanation e = explainPixel(lit, questionOf(away, {20, 15}));
     EXPECT_TRUE(e.seen.empty());
     ASSERT_FALSE(e.tables.byOrigin.empty());
     EXPECT_EQ(e.tables.byOrigin[0].kind, LightRowKind::Sky);
