@@ -73,12 +73,13 @@ Around lookAround(const TraceScene& trace, glm::vec3 eye) {
     return around;
 }
 
-ImageF irradiance(const TraceScene& trace, const Camera& camera, std::uint32_t samples) {
+ImageF irradiance(const TraceScene& trace, const Camera& camera, std::uint32_t width,
+                  std::uint32_t samples) {
     ReferenceOptions options;
     options.view = View::Irradiance;
     options.camera = camera;
-    options.width = 32;
-    options.height = 18;
+    options.width = width;
+    options.height = width * 9 / 16;
     options.samplesPerPixel = samples;
     return renderReference(trace, options).image;
 }
@@ -134,7 +135,7 @@ TEST(Gallery, EverySeedGivesASoundLitSceneWithACameraInTheOpen) {
         const Around around = lookAround(trace, camera.eye);
         EXPECT_LT(around.backs, 0.1);
         EXPECT_GT(around.nearest, 1e-4);
-        const ImageF picture = irradiance(trace, camera, 32);
+        const ImageF picture = irradiance(trace, camera, 16, 32);
         EXPECT_EQ(std::count_if(picture.rgb.begin(), picture.rgb.end(),
                                 [](glm::vec3 p) { return !finite(p); }),
                   0);
@@ -153,7 +154,7 @@ TEST(Gallery, NoLightReachesTheSealedRoom) {
         const TraceScene trace(flatten(made.document, made.assets));
         // A wall without thickness between the rooms shows its back here.
         EXPECT_LT(lookAround(trace, made.darkCamera->eye).backs, 0.5);
-        EXPECT_EQ(shareOfLitPixels(irradiance(trace, *made.darkCamera, 64)), 0);
+        EXPECT_EQ(shareOfLitPixels(irradiance(trace, *made.darkCamera, 32, 64)), 0);
         ++rooms;
     }
     EXPECT_GT(rooms, kTraced / 20);
