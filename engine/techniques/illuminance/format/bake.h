@@ -115,8 +115,8 @@ struct Bake {
     /// re-traced". Not part of the hash or the file.
     std::vector<std::string> notes;
 
-    /// Hash of everything but `baker`, `counts`, `seconds`, `keptStages` and `notes`. It is equal for equal
-    /// documents, whatever the stage store held.
+    /// Hash of everything but `baker`, `counts`, `seconds`, `keptStages` and `notes`. It is equal
+    /// for equal documents, whatever the stage store held.
     std::uint64_t hash() const;
 };
 
