@@ -13,6 +13,9 @@ using Library = nlohmann::ordered_json;
 
 static const Json kNull;
 
+Json::Json() = default;
+Json::Json(Kind kind, std::uint64_t integer, double number)
+    : m_kind(kind), m_integer(integer), m_number(number) {}
 Json::Json(std::string value) : m_kind(Kind::String), m_text(std::move(value)) {}
 Json::Json(std::string_view value) : m_kind(Kind::String), m_text(value) {}
 Json::Json(const char* value) : m_kind(Kind::String), m_text(value) {}

@@ -27,24 +27,26 @@ struct JsonMember;
 /// an array otherwise: Json{{"size", 3}} has one member. The library that reads and writes the text
 /// is included by json.cpp alone, because it costs a compiler seconds.
 class Json {
+    enum class Kind { Null, Boolean, Integer, Unsigned, Float, String, Array, Members };
+
 public:
-    Json() = default; ///< null
-    Json(std::nullptr_t) {}
+    Json(); ///< null
+    Json(std::nullptr_t) : Json() {}
     template <std::same_as<bool> T>
-    Json(T value) : m_kind(Kind::Boolean), m_integer(value) {}
+    Json(T value) : Json(Kind::Boolean, value) {}
     template <std::integral T>
     requires(!std::same_as<T, bool>) Json(T value)
-        : m_kind(std::is_signed_v<T> ? Kind::Integer : Kind::Unsigned),
-          m_integer(std::uint64_t(std::int64_t(value))) {}
+        : Json(std::is_signed_v<T> ? Kind::Integer : Kind::Unsigned,
+               std::uint64_t(std::int64_t(value))) {}
     template <std::floating_point T>
-    Json(T value) : m_kind(Kind::Float), m_number(double(value)) {}
+    Json(T value) : Json(Kind::Float, 0, double(value)) {}
     Json(std::string value);
     Json(std::string_view value);
     Json(const char* value);
     Json(std::initializer_list<Json> values);
     Json(const std::map<std::string, double>& members);
     template <class T>
-    Json(const std::vector<T>& values) : m_kind(Kind::Array) {
+    Json(const std::vector<T>& values) : Json(Kind::Array) {
         for (const T& value : values)
             push_back(Json(value));
     }
@@ -89,7 +91,6 @@ public:
     /// Number of elements or members; 0 for all other values.
     std::size_t size() const;
     bool empty() const { return size() == 0; }
-
     // Arrays. Null becomes an array when something is added.
     void push_back(Json value);
     template <std::integral Index>
@@ -123,8 +124,7 @@ public:
     friend bool operator==(const Json& a, const Json& b);
 
 private:
-    enum class Kind { Null, Boolean, Integer, Unsigned, Float, String, Array, Members };
-
+    explicit Json(Kind kind, std::uint64_t integer = 0, double number = 0);
     bool boolean() const;
     double number() const;
     std::uint64_t integer() const; ///< signed ones in two's complement
