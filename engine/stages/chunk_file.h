@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/archive.h"
+#include "engine/core/field_rule.h"
 #include "engine/core/memory_budget.h"
 #include "engine/core/result.h"
 
@@ -101,6 +102,22 @@ Result<T> readChunks(const std::string& path, const ChunkFormat& format, const M
     if (!defect.empty())
         return fail(defect);
     return value;
+}
+
+/// The first chunk whose fields break their rules, and how; empty: none.
+template <class T, class ForChunks>
+std::string chunksDefect(const T& value, const ForChunks& forChunks) {
+    std::string defect;
+    forChunks([&](std::string name, auto fields) {
+        if (!defect.empty())
+            return;
+        FieldCheck check;
+        fields(check, value);
+        name.erase(name.find_last_not_of(' ') + 1);
+        if (!check.defect.empty())
+            defect = fmt::format("{}: {}", name, check.defect);
+    });
+    return defect;
 }
 
 } // namespace limn

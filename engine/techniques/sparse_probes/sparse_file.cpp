@@ -103,17 +103,7 @@ Result<SparseBake> readSparse(const std::string& path, const MemoryBudget& memor
 }
 
 std::string sparseDefect(const SparseBake& bake, const Scene* scene) {
-    std::string defect;
-    forChunks(scene, [&](std::string name, auto fields) {
-        if (!defect.empty())
-            return;
-        FieldCheck check;
-        fields(check, bake);
-        name.erase(name.find_last_not_of(' ') + 1);
-        if (!check.defect.empty())
-            defect = fmt::format("{}: {}", name, check.defect);
-    });
-    return defect;
+    return chunksDefect(bake, [scene](const auto& visit) { forChunks(scene, visit); });
 }
 
 } // namespace limn

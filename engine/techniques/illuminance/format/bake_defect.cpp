@@ -2,11 +2,10 @@
 #include "engine/techniques/illuminance/format/bake_defect.h"
 
 #include "engine/math/packing.h"
+#include "engine/stages/chunk_file.h"
 #include "engine/techniques/illuminance/format/bake_fields.h"
 
 #include <cmath>
-
-#include <fmt/format.h>
 
 namespace limn {
 
@@ -48,17 +47,7 @@ bool placesAreCaches(const Caches& c, std::uint64_t texels, std::uint64_t cells)
 }
 
 std::string bakeDefect(const Bake& bake, const Scene* scene) {
-    std::string defect;
-    forBakeChunks(scene, [&](std::string name, auto fields) {
-        if (!defect.empty())
-            return;
-        FieldCheck check;
-        fields(check, bake);
-        name.erase(name.find_last_not_of(' ') + 1);
-        if (!check.defect.empty())
-            defect = fmt::format("{}: {}", name, check.defect);
-    });
-    return defect;
+    return chunksDefect(bake, [scene](const auto& visit) { forBakeChunks(scene, visit); });
 }
 
 } // namespace limn

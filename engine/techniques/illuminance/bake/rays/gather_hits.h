@@ -17,7 +17,7 @@ struct AimedSample {
     float scale = 1;      ///< senders that it stands for, itself included [1]
 };
 
-/// A ray of a cache that met the sky.
+/// A ray that was traced from a cache and met the sky.
 struct SkyHit {
     std::uint32_t sender; ///< a sky cell: leaf of the ClusterTree
     std::uint32_t point;  ///< of CachePoints

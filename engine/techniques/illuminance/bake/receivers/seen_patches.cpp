@@ -257,8 +257,8 @@ std::vector<ErrorGroup> largestGroups(const Surfels& moved, const std::vector<fl
 }
 
 /// Makes a surfel cache over seen points of the surfels' patches that face as the first surfel
-/// does: those visible from the surfel's place a little above the surface, hence on its side of a
-/// wall, or any where none is.
+/// does. Of these it takes the points visible from a place a little above the surfel, which lie on
+/// its side of a wall; if none is visible, it takes them all.
 SurfelCache makeSurfelCache(const PatchHits& patchHits, const Surfels& moved,
                             const std::vector<std::uint32_t>& surfels) {
     constexpr float kAlike = 0.9f, kAbove = 0.05f; // [patches' width]
