@@ -26,4 +26,5 @@ status=0
 [ "$status" -eq 2 ] || wrong "the editor, which needs a window: status $status"
 
 # Nothing of the rooms that know Vulkan was linked.
-! nm -C "$program" | grep -m 1 ' [TtWw] limn::gpu::' || wrong "holds code of engine/gpu"
+nm -C "$program" >"$folder/symbols"
+! grep -m 1 ' [TtWw] limn::gpu::' "$folder/symbols" || wrong "holds code of engine/gpu"

@@ -242,7 +242,7 @@ types_have_one_definition() {
 files_have_a_licence_line() {
     local bad=0
     while read -r file; do
-        head -n 2 "$file" | grep -q 'SPDX-License-Identifier: MIT' || { echo "$file: no licence line"; bad=1; }
+        grep -q 'SPDX-License-Identifier: MIT' <(head -n 2 "$file") || { echo "$file: no licence line"; bad=1; }
     done < <(files "$code|\.sh$|^run$|^check$|^\.ci/")
     return $bad
 }
@@ -297,6 +297,11 @@ shell_scripts_parse() {
         grep -q '^set -euo pipefail' "$file" || { echo "$file: no set -euo pipefail"; bad=1; }
     done < <(files '\.sh$|^run$|^check$|^\.ci/')
     return $bad
+}
+
+# A reader that ends early kills the command that still writes to it, and with pipefail that is a failure, now and then.
+pipes_are_read_to_their_end() {
+    ! files '\.sh$|^run$|^check$|^\.ci/' | xargs grep -nE '\| *(head|grep +-[a-zA-Z]*[qm])'
 }
 
 # The scripts that no test runs still name targets: those are in the build folder $1.
