@@ -79,10 +79,16 @@ function(limn_room name)
   set_property(GLOBAL APPEND PROPERTY LIMN_JOINED ${name})
 endfunction()
 
-# Many tests start programs with a cache folder of their own. Without a shared shader cache, Lavapipe compiles the same shaders
-# in each of them, which takes five seconds.
+# Tests start programs with a cache folder of their own, in which Lavapipe would compile the same shaders again, for five seconds and
+# more. They share one cache, with the other presets and checkouts too, as these share the compiler's.
+set(LIMN_SHADER_CACHE ${CMAKE_BINARY_DIR}/shader-cache)
+if(DEFINED ENV{XDG_CACHE_HOME})
+  set(LIMN_SHADER_CACHE $ENV{XDG_CACHE_HOME}/limn-tests/shaders)
+elseif(DEFINED ENV{HOME})
+  set(LIMN_SHADER_CACHE $ENV{HOME}/.cache/limn-tests/shaders)
+endif()
 set(LIMN_TEST_ENVIRONMENT LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0
-    TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/tsan.supp MESA_SHADER_CACHE_DIR=${CMAKE_BINARY_DIR}/shader-cache)
+    TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/tsan.supp MESA_SHADER_CACHE_DIR=${LIMN_SHADER_CACHE})
 
 # limn_test(scene_light_test SOURCES light_test.cpp DEPENDS limn_scene)
 # The tests of a folder become one program, and each test a ctest entry that runs the tests of its first source.

@@ -330,7 +330,8 @@ TEST_F(CommandLine, RenderPrintsOneJsonObjectAndWritesThePicture) {
 TEST_F(CommandLine, RenderWritesTheFramesOfAnAnimationEachAsAPictureOfItsTime) {
     const std::string bake = path("signs.limnbake");
     ASSERT_EQ(limn("bake signs" + kCoarse + "-o " + bake).exit, 0);
-    const std::string start = "render signs --bake " + bake + " --width 48 --height 48 --json ";
+    const std::string start = "render signs --bake " + bake + " --width 48 --height 48 --json " +
+                              "--near-rays 0 --gather-rays 0 --spp 4 ";
     for (const std::string relight : {"cpu", "gpu"}) {
         const std::string where = "--relight " + relight + " ";
         const nlohmann::json frames = json(start + where + "--time 0.25 --frames 11 --fps 4 -o " +

@@ -11,10 +11,23 @@
 namespace limn::relight_command_test {
 namespace {
 
+/// Cornell with few texels, in the folder `where`.
+std::string coarseCornell(const std::string& where) {
+    const std::string folder = sourcePath("projects/cornell");
+    nlohmann::json project = nlohmann::json::parse(contents(folder + "/cornell.limn"));
+    project["scene"] = folder + "/" + std::string(project["scene"]);
+    for (nlohmann::json& object : project["objects"])
+        if (object.contains("bakeSettings"))
+            object["bakeSettings"].update({{"surfels", 256}, {"lightmapCaches", 1000}});
+    write(where, project.dump());
+    return where;
+}
+
 TEST_F(CommandLine, RenderLightsAnyTechniqueOnEitherDevice) {
     const std::string cpu = path("cpu.exr"), gpu = path("gpu.exr");
-    const std::string start = "render cornell --light 'point pos=0,1,0.5 cd=1' --width 48 --height "
-                              "32 --view irradiance --json --technique ";
+    const std::string start = "render " + coarseCornell(path("coarse.limn")) +
+                              " --light 'point pos=0,1,0.5 cd=1' --width 48 --height "
+                              "32 --spp 4 --view irradiance --json --technique ";
     for (const std::string technique :
          {"lpv", "probes --set probes.count=64 --set probes.side=24", "sparse-probes"}) {
         const nlohmann::json onCpu = json(start + technique + " --relight cpu -o " + cpu),
@@ -68,7 +81,7 @@ TEST_F(CommandLine, APictureIsTheSameByteByByteWithoutTheCachesItDoesNotLookUp) 
             const std::string render =
                 std::string("render ") + view.scene + view.lens +
                 " --light 'sun dir=-0.4,-1,-0.3 lux=20' --bake " + bake + " --device " + device +
-                " --near-rays 0 --gather-rays 0 --spp 4 --width 160 --height 100 --json -o ";
+                " --near-rays 0 --gather-rays 0 --spp 4 --width 96 --height 60 --json -o ";
             const nlohmann::json with = json(render + few),
                                  without = json(render + all + " --all-caches");
             EXPECT_EQ(without["relight"]["caches_unseen"], 0);
