@@ -5,6 +5,7 @@
 #include "app/techniques/technique_program.h"
 
 #include "engine/core/hash.h"
+#include "engine/export/vector_json.h"
 #include "engine/files/document_fields.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
@@ -25,10 +26,6 @@ static std::uint64_t bytesOf(const Mesh& mesh) {
     const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
     return bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.tangents) + bytes(mesh.uv0) +
            bytes(mesh.uv1) + bytes(mesh.colors) + bytes(mesh.indices);
-}
-
-static Json toJson(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
 }
 
 static Json describe(const ImportedScene& imported) {
@@ -57,8 +54,8 @@ static Json describe(const ImportedScene& imported) {
     json["images"] = imported.assets->images.size();
     json["lights"] = scene.lights.size();
     json["cameras"] = scene.cameras.size();
-    json["bounds"] = {{"lower", toJson(toFile(scene.origin, scene.bounds.lower))},
-                      {"upper", toJson(toFile(scene.origin, scene.bounds.upper))}};
+    json["bounds"] = {{"lower", vectorJson(toFile(scene.origin, scene.bounds.lower))},
+                      {"upper", vectorJson(toFile(scene.origin, scene.bounds.upper))}};
     json["bytes"] = {{"geometry", geometry}, {"images", images}, {"total", geometry + images}};
     json["repairs"] = imported.repairs;
     return json;

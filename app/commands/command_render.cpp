@@ -309,12 +309,12 @@ Result<void> renderFrames(const RenderCommand& options, const Document& document
                           const Camera& camera) {
     using Clock = std::chrono::steady_clock;
     Clock::time_point start = Clock::now();
-    Result<Baked> baked = prepareBake(options, scene, camera);
-    if (!baked)
-        return tl::make_unexpected(baked.error());
     const Result<DrawPicture> draw = chooseDrawing(options);
     if (!draw)
         return tl::make_unexpected(draw.error());
+    Result<Baked> baked = prepareBake(options, scene, camera);
+    if (!baked)
+        return tl::make_unexpected(baked.error());
     const RenderRequest request = requestOf(options, scene, camera, *baked);
     auto frames = Json::array();
     for (std::uint32_t frame = 0; frame < options.frames; ++frame) {

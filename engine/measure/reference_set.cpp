@@ -14,16 +14,21 @@ namespace limn {
 static constexpr double kNrmseThatMatters = 0.1, kBiasThatMatters = 0.02;
 static constexpr std::size_t kWorstOneOf = 100; ///< pixels, left out of nrmseTrimmed
 
+static constexpr std::uint32_t kParts = 4;
+
 /// Renders four parts of `samples` samples each, with the seeds of that pass.
-static std::optional<std::array<ImageF, 4>> renderParts(const TraceScene& trace,
-                                                        ReferenceOptions options,
-                                                        std::uint32_t samples, std::uint32_t pass,
-                                                        const Progress& progress) {
-    std::array<ImageF, 4> parts;
+static std::optional<std::array<ImageF, kParts>>
+renderParts(const TraceScene& trace, ReferenceOptions options, std::uint32_t samples,
+            std::uint32_t pass, const Progress& progress) {
+    std::array<ImageF, kParts> parts;
     options.samplesPerPixel = samples;
-    for (std::uint32_t k = 0; k < 4; ++k) {
-        options.seed = 4 * pass + k + 1;
-        ReferenceResult result = renderReference(trace, options, progress);
+    for (std::uint32_t k = 0; k < kParts; ++k) {
+        options.seed = kParts * pass + k + 1;
+        const Progress whole{
+            .report = [&](const char* stage,
+                          float fraction) { progress.at(stage, (float(k) + fraction) / kParts); },
+            .cancel = progress.cancel};
+        ReferenceResult result = renderReference(trace, options, whole);
         if (result.samplesPerPixel < samples)
             return {};
         parts[k] = std::move(result.image);
@@ -45,7 +50,7 @@ bool refine(ReferenceSet& set, const TraceScene& trace, const ReferenceOptions& 
     const auto more = renderParts(trace, options, set.samplesPerPixel, set.passes, progress);
     if (!more)
         return false;
-    for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t k = 0; k < kParts; ++k)
         set.parts[k] = meanImage(set.parts[k], (*more)[k]);
     set.samplesPerPixel *= 2;
     ++set.passes;

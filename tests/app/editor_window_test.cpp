@@ -47,7 +47,7 @@ Document testDocument(ObjectId& light, const TechniqueChoice& technique) {
 /// Where the editor puts its picture: the same interface, drawn without a window.
 Picture pictureOf(const std::string& project, glm::ivec2 window) {
     const ImportedScene opened = *loadProject(project);
-    HeadlessUi ui(window.x, window.y);
+    HeadlessUi ui(float(window.x), float(window.y));
     EditorState state;
     state.assets = opened.assets;
     state.document = opened.document;
@@ -165,8 +165,7 @@ TEST_F(EditorWindowTest, ALightIsPickedDraggedSavedUndoneAndLitWithoutABake) {
 TEST_F(EditorWindowTest, AnEditOutlivesAKillAndIsOfferedAtTheNextStart) {
     ASSERT_TRUE(waitFor([](const auto& s) { return s["bake_up_to_date"] == true; }));
     screen->focusWindow();
-    screen->click(
-        *toPixel(picture(), std::get<Light>(document.objects.at(light)).position));
+    screen->click(*toPixel(picture(), std::get<Light>(document.objects.at(light)).position));
     ASSERT_TRUE(waitFor([&](const auto& s) { return s["selection"] == nlohmann::json{light}; }));
     screen->key("Delete");
     ASSERT_TRUE(waitFor([](const auto& s) { return s["edits"] == 1; }));
