@@ -48,10 +48,10 @@ bool scaleServes(float scale, float brightest) {
 }
 
 float brightestOf(std::span<const glm::vec4> coefficients) {
-    glm::vec3 most(0);
+    glm::vec3 maximum(0);
     for (const glm::vec4& c : coefficients)
-        most = glm::max(most, glm::abs(glm::vec3(c)));
-    return std::max({most.x, most.y, most.z});
+        maximum = glm::max(maximum, glm::abs(glm::vec3(c)));
+    return std::max({maximum.x, maximum.y, maximum.z});
 }
 
 std::vector<glm::u16vec4> packField(std::span<const glm::vec4> coefficients, std::uint32_t bands,

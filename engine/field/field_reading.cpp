@@ -11,13 +11,13 @@ namespace limn {
 
 /// Adds the sum of `ofCoefficients` times the coefficients of the light above the surface, where
 /// `value` of that is above 0. Changes `ofCoefficients`.
-static void addSum(const FieldPoint& at, std::span<float> ofCoefficients, glm::vec3 value,
+static void addSum(const FieldPoint& point, std::span<float> ofCoefficients, glm::vec3 value,
                    glm::vec3 weight, FieldReading& reading) {
     for (int k = 0; k < 3; ++k)
         weight[k] = value[k] > 0 ? weight[k] : 0;
-    const FieldLookup lookup = lookUp(at);
-    if (at.field.continues && !lookup.grid)
-        weighCut(at.surfaceNormal(), ofCoefficients.data());
+    const FieldLookup lookup = lookUp(point);
+    if (point.field.continues && !lookup.grid)
+        weighCut(point.surfaceNormal(), ofCoefficients.data());
     for (std::size_t k = 0; k < lookup.count; ++k) {
         const std::uint64_t key = std::uint64_t(lookup.index[k]) << 1 | (lookup.grid ? 1 : 0);
         const auto [place, added] = reading.places.try_emplace(key, reading.entries.size());
@@ -30,7 +30,7 @@ static void addSum(const FieldPoint& at, std::span<float> ofCoefficients, glm::v
 }
 
 /// The same for the harmonics in `direction`, times factors[l] for each band l.
-static void addBands(const FieldPoint& at, glm::vec3 direction, int bands,
+static void addBands(const FieldPoint& point, glm::vec3 direction, int bands,
                      const std::array<float, kMaxBands>& factors, glm::vec3 value, glm::vec3 weight,
                      FieldReading& reading) {
     float basis[kMaxCoefficients];
@@ -38,27 +38,27 @@ static void addBands(const FieldPoint& at, glm::vec3 direction, int bands,
     for (int l = 0, i = 0; l < bands; ++l)
         for (; i < (l + 1) * (l + 1); ++i)
             basis[i] *= factors[std::size_t(l)];
-    addSum(at, {basis, std::size_t(bands * bands)}, value, weight, reading);
+    addSum(point, {basis, std::size_t(bands * bands)}, value, weight, reading);
 }
 
-void addIrradiance(const FieldPoint& at, glm::vec3 weight, FieldReading& reading) {
-    addBands(at, at.normal, std::min(int(at.field.bands), kIrradianceBands), irradianceFactors(),
-             sampleIrradiance(at), weight, reading);
+void addIrradiance(const FieldPoint& point, glm::vec3 weight, FieldReading& reading) {
+    addBands(point, point.normal, std::min(int(point.field.bands), kIrradianceBands),
+             irradianceFactors(), sampleIrradiance(point), weight, reading);
 }
 
-void addRadiance(const FieldPoint& at, glm::vec3 direction, glm::vec3 weight,
+void addRadiance(const FieldPoint& point, glm::vec3 direction, glm::vec3 weight,
                  FieldReading& reading) {
-    const int bands = std::min(int(at.field.bands), kIrradianceBands);
+    const int bands = std::min(int(point.field.bands), kIrradianceBands);
     float ofCoefficients[kIrradianceBands * kIrradianceBands];
-    hemisphereRadianceWeights(bands, at.normal, direction, ofCoefficients);
-    addSum(at, {ofCoefficients, std::size_t(bands * bands)}, sampleRadiance(at, direction), weight,
-           reading);
+    hemisphereRadianceWeights(bands, point.normal, direction, ofCoefficients);
+    addSum(point, {ofCoefficients, std::size_t(bands * bands)}, sampleRadiance(point, direction),
+           weight, reading);
 }
 
-void addLobe(const FieldPoint& at, glm::vec3 direction, int bands,
+void addLobe(const FieldPoint& point, glm::vec3 direction, int bands,
              const std::array<float, kMaxBands>& factors, glm::vec3 weight, FieldReading& reading) {
-    addBands(at, direction, std::min(bands, int(at.field.bands)), factors,
-             sampleLobe(at, direction, bands, factors), weight, reading);
+    addBands(point, direction, std::min(bands, int(point.field.bands)), factors,
+             sampleLobe(point, direction, bands, factors), weight, reading);
 }
 
 glm::vec3 valueOf(const FieldReading& reading, const IndirectField& field) {
@@ -70,7 +70,7 @@ glm::vec3 valueOf(const FieldReading& reading, const IndirectField& field) {
             value += glm::dvec3(entry.weight[i] * glm::vec3(values[i * stride + entry.index]));
     }
     for (const FieldReading::Marched& m : reading.marched)
-        value += glm::dvec3(m.weight * marchedRadiance(*field.marched, m.at));
+        value += glm::dvec3(m.weight * marchedRadiance(*field.marched, m.lookup));
     return glm::vec3(value);
 }
 

@@ -29,7 +29,7 @@ struct FieldReading {
 
     /// Weight of the radiance that a marched reflection looks up.
     struct Marched {
-        MarchedLookup at;
+        MarchedLookup lookup;
         glm::vec3 weight{0};
     };
     std::vector<Marched> marched;
@@ -38,16 +38,16 @@ struct FieldReading {
     std::vector<Entry> emitted;
 };
 
-/// Adds weight * sampleIrradiance(at) to the reading. Where a colour of that is clamped to 0, it
+/// Adds weight * sampleIrradiance(point) to the reading. Where a colour of that is clamped to 0, it
 /// adds nothing.
-void addIrradiance(const FieldPoint& at, glm::vec3 weight, FieldReading& reading);
+void addIrradiance(const FieldPoint& point, glm::vec3 weight, FieldReading& reading);
 
-/// Adds weight * sampleRadiance(at, direction), with the same exception.
-void addRadiance(const FieldPoint& at, glm::vec3 direction, glm::vec3 weight,
+/// Adds weight * sampleRadiance(point, direction), with the same exception.
+void addRadiance(const FieldPoint& point, glm::vec3 direction, glm::vec3 weight,
                  FieldReading& reading);
 
-/// Adds weight * sampleLobe(at, direction, bands, factors), with the same exception.
-void addLobe(const FieldPoint& at, glm::vec3 direction, int bands,
+/// Adds weight * sampleLobe(point, direction, bands, factors), with the same exception.
+void addLobe(const FieldPoint& point, glm::vec3 direction, int bands,
              const std::array<float, kMaxBands>& factors, glm::vec3 weight, FieldReading& reading);
 
 /// The reading's value in `field`, which has the sizes of those it was made from.

@@ -33,8 +33,8 @@ std::uint32_t texelAt(int x, int y) {
 } // namespace
 
 GridDepthLookup gridDepthLookup(glm::vec3 d) {
-    const glm::vec2 at = (octahedralSquare(d) * 0.5f + 0.5f) * float(kSide) - 0.5f;
-    const glm::vec2 base = glm::floor(at), f = at - base;
+    const glm::vec2 position = (octahedralSquare(d) * 0.5f + 0.5f) * float(kSide) - 0.5f;
+    const glm::vec2 base = glm::floor(position), f = position - base;
     const int x = int(base.x), y = int(base.y);
     return {{texelAt(x, y), texelAt(x + 1, y), texelAt(x, y + 1), texelAt(x + 1, y + 1)},
             {(1 - f.x) * (1 - f.y), f.x * (1 - f.y), (1 - f.x) * f.y, f.x * f.y}};
@@ -53,9 +53,9 @@ float seenFromCell(const std::uint16_t* texels, glm::vec3 way, float reach) {
     if (!(length > 0))
         return texels[0] == 0xffff ? 0.f : 1.f;
     float inverse = 0;
-    const GridDepthLookup at = gridDepthLookup(way);
+    const GridDepthLookup lookup = gridDepthLookup(way);
     for (std::size_t k = 0; k < 4; ++k)
-        inverse += at.weight[k] * float(texels[at.texel[k]]);
+        inverse += lookup.weight[k] * float(texels[lookup.texel[k]]);
     const float share = length * inverse * (kGridDepthScale / 65535 / reach);
     return std::clamp((float(GRID_HIDDEN) - share) * float(GRID_FALLOFF), 0.f, 1.f);
 }

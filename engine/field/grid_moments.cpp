@@ -19,10 +19,10 @@ static glm::vec2 momentsTowards(const GridMoments& moments, std::uint32_t cell, 
     const glm::vec2* texels = moments.texels.data() + std::size_t(cell) * kGridDepthTexels;
     if (!(glm::length(way) > 0))
         return texels[0];
-    const GridDepthLookup at = gridDepthLookup(way);
+    const GridDepthLookup lookup = gridDepthLookup(way);
     glm::vec2 here(0);
     for (std::size_t k = 0; k < 4; ++k)
-        here += at.weight[k] * texels[at.texel[k]];
+        here += lookup.weight[k] * texels[lookup.texel[k]];
     return here;
 }
 

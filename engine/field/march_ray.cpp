@@ -50,15 +50,15 @@ bool walkCells(glm::vec2 a, glm::vec2 b, float s0, float s1, int size, int cells
     const auto cellAt = [&](float s) {
         return glm::clamp(glm::ivec2(glm::floor((a + s * along) / float(size))), 0, cells - 1);
     };
-    glm::ivec2 at = cellAt(s0);
+    glm::ivec2 cell = cellAt(s0);
     const glm::ivec2 last = cellAt(s1);
     for (float s = s0;;) {
         int axis = -1;
         float next = s1;
         for (int k = 0; k < 2; ++k) {
-            if (at[k] == last[k])
+            if (cell[k] == last[k])
                 continue;
-            const int edge = (at[k] + (last[k] > at[k] ? 1 : 0)) * size;
+            const int edge = (cell[k] + (last[k] > cell[k] ? 1 : 0)) * size;
             const float crossing = (float(edge) - a[k]) / along[k];
             if (axis < 0 || crossing < next) {
                 next = crossing;
@@ -66,11 +66,11 @@ bool walkCells(glm::vec2 a, glm::vec2 b, float s0, float s1, int size, int cells
             }
         }
         next = std::clamp(next, s, s1);
-        if (next > s && !visit(at, s, next))
+        if (next > s && !visit(cell, s, next))
             return false;
         if (axis < 0)
             return true;
-        at[axis] += last[axis] > at[axis] ? 1 : -1;
+        cell[axis] += last[axis] > cell[axis] ? 1 : -1;
         s = next;
     }
 }
@@ -141,8 +141,8 @@ struct March {
 };
 
 glm::vec3 positionOf(const MarchedMaps& maps, std::uint32_t probe) {
-    const glm::uvec3 n = maps.gridSize, at(probe % n.x, probe / n.x % n.y, probe / n.x / n.y);
-    return maps.gridBounds.lower + (glm::vec3(at) + 0.5f) / glm::vec3(n) * maps.gridBounds.size();
+    const glm::uvec3 n = maps.gridSize, cell(probe % n.x, probe / n.x % n.y, probe / n.x / n.y);
+    return maps.gridBounds.lower + (glm::vec3(cell) + 0.5f) / glm::vec3(n) * maps.gridBounds.size();
 }
 
 } // namespace
@@ -194,12 +194,12 @@ MarchedRay marchRay(const MarchedMaps& maps, glm::vec3 origin, glm::vec3 directi
     const std::array<std::uint32_t, 8> probes =
         cellsAbout(maps.gridBounds, maps.gridSize, origin).index;
     std::uint32_t nearest = 8;
-    float least = 0;
+    float minDistance = 0;
     for (std::uint32_t k = 0; k < 8; ++k) {
         const float distance = glm::distance(positionOf(maps, probes[k]), origin);
-        if (maps.inSolid[probes[k]] == 0 && (nearest == 8 || distance < least)) {
+        if (maps.inSolid[probes[k]] == 0 && (nearest == 8 || distance < minDistance)) {
             nearest = k;
-            least = distance;
+            minDistance = distance;
         }
     }
     if (nearest == 8)
@@ -226,10 +226,10 @@ MarchedLookup lookUp(const MarchedMaps& maps, const MarchedRay& ray, glm::vec3 o
     return {ray.probe, seen, std::min(spread * ray.t / distance, float(MARCH_WIDEST))};
 }
 
-glm::vec3 marchedRadiance(const MarchedMaps& maps, const MarchedLookup& at) {
-    if (at.probe == MarchedRay::kNoProbe || at.direction == glm::vec3(0))
+glm::vec3 marchedRadiance(const MarchedMaps& maps, const MarchedLookup& lookup) {
+    if (lookup.probe == MarchedRay::kNoProbe || lookup.direction == glm::vec3(0))
         return glm::vec3(0);
-    return probeRadiance(maps, at.probe, at.direction, at.spread);
+    return probeRadiance(maps, lookup.probe, lookup.direction, lookup.spread);
 }
 
 } // namespace limn

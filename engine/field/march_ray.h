@@ -73,6 +73,6 @@ MarchedLookup lookUp(const MarchedMaps& maps, const MarchedRay& ray, glm::vec3 o
                      glm::vec3 direction, float spread);
 
 /// Radiance of a lookup [W m^-2 sr^-1]; 0 where there is no probe or no direction.
-glm::vec3 marchedRadiance(const MarchedMaps& maps, const MarchedLookup& at);
+glm::vec3 marchedRadiance(const MarchedMaps& maps, const MarchedLookup& lookup);
 
 } // namespace limn

@@ -81,8 +81,8 @@ TexelShare sharesOf(std::uint32_t texel, std::uint32_t fine, std::uint32_t coars
     const float ratio = float(fine) / float(coarse), from = float(texel) * ratio, to = from + ratio;
     TexelShare share{.first = std::min(std::uint32_t(from + 1e-4f), fine - 1)};
     for (std::uint32_t k = 0; k < 3 && share.first + k < fine; ++k) {
-        const auto at = float(share.first + k);
-        const float covered = std::min(to, at + 1) - std::max(from, at);
+        const auto lower = float(share.first + k);
+        const float covered = std::min(to, lower + 1) - std::max(from, lower);
         if (covered < 1e-4f)
             break;
         share.weight[share.count++] = covered / ratio;
@@ -91,13 +91,13 @@ TexelShare sharesOf(std::uint32_t texel, std::uint32_t fine, std::uint32_t coars
 }
 
 /// A texel of a map, whose sides are each joined to themselves, folded about their middles.
-glm::ivec2 wrapped(glm::ivec2 at, int side) {
+glm::ivec2 wrapped(glm::ivec2 texel, int side) {
     for (int a = 0; a < 2; ++a)
-        if (at[a] < 0 || at[a] >= side) {
-            at[a] = std::clamp(at[a], 0, side - 1);
-            at[1 - a] = side - 1 - at[1 - a];
+        if (texel[a] < 0 || texel[a] >= side) {
+            texel[a] = std::clamp(texel[a], 0, side - 1);
+            texel[1 - a] = side - 1 - texel[1 - a];
         }
-    return at;
+    return texel;
 }
 
 glm::vec3 bilinear(const MarchedMaps& maps, std::size_t level, std::size_t probe,
@@ -105,8 +105,9 @@ glm::vec3 bilinear(const MarchedMaps& maps, std::size_t level, std::size_t probe
     const auto side = int(maps.levelSide(level));
     const glm::vec3* texels =
         maps.radiance[level].data() + probe * std::size_t(side) * std::size_t(side);
-    const glm::vec2 at = (square * 0.5f + 0.5f) * float(side) - 0.5f, lower = glm::floor(at);
-    const glm::vec2 f = at - lower;
+    const glm::vec2 position = (square * 0.5f + 0.5f) * float(side) - 0.5f,
+                    lower = glm::floor(position);
+    const glm::vec2 f = position - lower;
     glm::vec3 sum(0);
     for (int k = 0; k < 4; ++k) {
         const glm::ivec2 step(k & 1, k >> 1);

@@ -27,16 +27,16 @@ struct GridPoint {
 
 /// Weight of a cell besides the trilinear one.
 float cellWeight(const IndirectField& field, std::uint32_t cell, glm::vec3 centre,
-                 const GridPoint& at) {
+                 const GridPoint& point) {
     if (field.gridMoments) {
-        const glm::vec3 p = field.gridMoments->smooth ? at.clear : at.position;
-        return momentsWeight(*field.gridMoments, cell, p - centre, at.normal);
+        const glm::vec3 p = field.gridMoments->smooth ? point.clear : point.position;
+        return momentsWeight(*field.gridMoments, cell, p - centre, point.normal);
     }
     if (!field.gridDepth)
         return 1;
     return float(GRID_UNSEEN) +
            seenFromCell(field.gridDepth->data() + std::size_t(cell) * kGridDepthTexels,
-                        at.clear - centre, at.reach);
+                        point.clear - centre, point.reach);
 }
 
 } // namespace
@@ -55,7 +55,7 @@ FieldLookup gridLookup(const IndirectField& field, glm::vec3 position, glm::vec3
         const std::uint32_t cell = about.index[corner];
         lookup.index[corner] = cell;
         const glm::vec3 centre =
-            field.gridBounds.lower + (glm::vec3(about.at[corner]) + 0.5f) * cellSize;
+            field.gridBounds.lower + (glm::vec3(about.cell[corner]) + 0.5f) * cellSize;
         lookup.weight[corner] = w.x * w.y * w.z * cellWeight(field, cell, centre, point);
         sum += lookup.weight[corner];
     }
@@ -70,9 +70,9 @@ namespace {
 
 /// The first bands^2 coefficients of the light above a surface point; the others are 0. At least 2
 /// bands.
-Coefficients sampleField(const FieldPoint& at, int bands) {
-    const FieldLookup lookup = lookUp(at);
-    const IndirectField& field = at.field;
+Coefficients sampleField(const FieldPoint& point, int bands) {
+    const FieldLookup lookup = lookUp(point);
+    const IndirectField& field = point.field;
     const std::vector<glm::vec4>& values = lookup.grid ? field.grid : field.lightmap;
     const std::size_t stride = values.size() / field.coefficients();
     Coefficients c{};
@@ -80,7 +80,7 @@ Coefficients sampleField(const FieldPoint& at, int bands) {
         for (std::size_t k = 0; k < lookup.count; ++k)
             c[i] += glm::vec3(values[i * stride + lookup.index[k]]) * lookup.weight[k];
     if (field.continues && !lookup.grid && lookup.count > 0)
-        cutBelow(at.surfaceNormal(), c.data());
+        cutBelow(point.surfaceNormal(), c.data());
     return c;
 }
 
@@ -96,40 +96,41 @@ bool IndirectField::operator==(const IndirectField& o) const {
            grid == o.grid && version == o.version;
 }
 
-FieldLookup lookUp(const FieldPoint& at) {
-    const LightmapLayout& layout = at.layout;
-    if (at.instance >= layout.instances.size() || layout.instances[at.instance].uv.empty())
-        return at.field.grid.empty() ? FieldLookup{} : gridLookup(at.field, at.position, at.normal);
-    const Bilinear b =
-        bilinearAt(layout, lightmapUv(layout, at.instance, at.scene.instances[at.instance].mesh,
-                                      at.triangle, at.u, at.v, at.back));
+FieldLookup lookUp(const FieldPoint& point) {
+    const LightmapLayout& layout = point.layout;
+    if (point.instance >= layout.instances.size() || layout.instances[point.instance].uv.empty())
+        return point.field.grid.empty() ? FieldLookup{}
+                                        : gridLookup(point.field, point.position, point.normal);
+    const Bilinear b = bilinearAt(layout, lightmapUv(layout, point.instance,
+                                                     point.scene.instances[point.instance].mesh,
+                                                     point.triangle, point.u, point.v, point.back));
     FieldLookup lookup{.count = 4};
     std::copy_n(b.texel, 4, lookup.index.begin());
     std::copy_n(b.weight, 4, lookup.weight.begin());
     return lookup;
 }
 
-glm::vec3 sampleIrradiance(const FieldPoint& at) {
-    const int bands = std::min(int(at.field.bands), kIrradianceBands);
-    const Coefficients c = sampleField(at, bands);
-    return glm::max(shIrradiance(bands, c.data(), at.normal), glm::vec3(0));
+glm::vec3 sampleIrradiance(const FieldPoint& point) {
+    const int bands = std::min(int(point.field.bands), kIrradianceBands);
+    const Coefficients c = sampleField(point, bands);
+    return glm::max(shIrradiance(bands, c.data(), point.normal), glm::vec3(0));
 }
 
-glm::vec3 sampleRadiance(const FieldPoint& at, glm::vec3 direction) {
-    const int bands = std::min(int(at.field.bands), kIrradianceBands);
-    const Coefficients c = sampleField(at, bands);
+glm::vec3 sampleRadiance(const FieldPoint& point, glm::vec3 direction) {
+    const int bands = std::min(int(point.field.bands), kIrradianceBands);
+    const Coefficients c = sampleField(point, bands);
     float w[kIrradianceBands * kIrradianceBands];
-    hemisphereRadianceWeights(bands, at.normal, direction, w);
+    hemisphereRadianceWeights(bands, point.normal, direction, w);
     glm::vec3 radiance(0);
     for (int i = 0; i < bands * bands; ++i)
         radiance += w[i] * c[std::size_t(i)];
     return glm::max(radiance, glm::vec3(0));
 }
 
-glm::vec3 sampleLobe(const FieldPoint& at, glm::vec3 direction, int bands,
+glm::vec3 sampleLobe(const FieldPoint& point, glm::vec3 direction, int bands,
                      const std::array<float, kMaxBands>& factors) {
-    bands = std::min(bands, int(at.field.bands));
-    const Coefficients c = sampleField(at, bands);
+    bands = std::min(bands, int(point.field.bands));
+    const Coefficients c = sampleField(point, bands);
     return glm::max(shLobe(bands, c.data(), direction, factors), glm::vec3(0));
 }
 

@@ -34,21 +34,21 @@ struct FieldLookup {
     std::array<std::uint32_t, 8> index{};
     std::array<float, 8> weight{}; ///< their sum is 1
 };
-FieldLookup lookUp(const FieldPoint& at);
+FieldLookup lookUp(const FieldPoint& point);
 /// The eight cells of the field's grid around a point of a surface with unit `normal`: trilinear
 /// weights, times what the cells see. None where all these are 0. Precondition: there is a grid.
 FieldLookup gridLookup(const IndirectField& field, glm::vec3 position, glm::vec3 normal);
 
 /// Irradiance at the point [W m^-2], >= 0.
-glm::vec3 sampleIrradiance(const FieldPoint& at);
+glm::vec3 sampleIrradiance(const FieldPoint& point);
 
 /// Radiance [W m^-2 sr^-1], >= 0, that arrives from unit `direction` above a surface with a
 /// lightmap, as far as up to three of the field's bands tell.
-glm::vec3 sampleRadiance(const FieldPoint& at, glm::vec3 direction);
+glm::vec3 sampleRadiance(const FieldPoint& point, glm::vec3 direction);
 
 /// Mean radiance [W m^-2 sr^-1], >= 0, in a lobe about unit `direction`. Uses the first `bands`
 /// bands, or as many as the field has, each weighted by its factor in `factors`.
-glm::vec3 sampleLobe(const FieldPoint& at, glm::vec3 direction, int bands,
+glm::vec3 sampleLobe(const FieldPoint& point, glm::vec3 direction, int bands,
                      const std::array<float, kMaxBands>& factors);
 
 } // namespace limn

@@ -43,7 +43,7 @@ private:
     bool isStale(std::uint32_t probe, std::uint32_t origin) const;
     bool isStale(std::uint32_t probe) const; ///< any of its origins
     std::uint32_t countStale() const;
-    void refresh(const LightingInput& input, std::uint32_t most, const Progress& progress,
+    void refresh(const LightingInput& input, std::uint32_t maxProbes, const Progress& progress,
                  Times& times);
     bool bounceIsDue(const Scene& scene);
     void writeField();
@@ -166,14 +166,14 @@ std::uint32_t ProbeLighting::countStale() const {
     return count;
 }
 
-/// Refreshes up to `most` stale probes in turn.
-void ProbeLighting::refresh(const LightingInput& input, std::uint32_t most,
+/// Refreshes up to `maxProbes` stale probes in turn.
+void ProbeLighting::refresh(const LightingInput& input, std::uint32_t maxProbes,
                             const Progress& progress, Times& times) {
     const std::uint32_t count = m_maps.grid.count();
     const ProbeScene in{input.scene, *input.trace, m_maps, m_solidAngles, m_field};
     Stopwatch watch;
     std::vector<std::uint32_t> origins; // that are stale
-    std::uint32_t left = most;
+    std::uint32_t left = maxProbes;
     for (std::uint32_t k = 0; k < count && left > 0 && !progress.cancelled(); ++k) {
         const std::uint32_t p = m_next;
         m_next = (m_next + 1) % count;
@@ -323,12 +323,13 @@ LightingReport ProbeLighting::update(const LightingInput& input, const Progress&
         return nothing;
     }
     // A view gets its light a few probes at a time; anything else wants all of it.
-    const std::uint32_t most = input.view ? probeSettingsOf(input.scene.technique).perUpdate : ~0U;
+    const std::uint32_t maxProbes =
+        input.view ? probeSettingsOf(input.scene.technique).perUpdate : ~0U;
     Times times;
     std::uint32_t bounces = 0;
     bool written = false;
     do {
-        refresh(input, most, progress, times);
+        refresh(input, maxProbes, progress, times);
         if (m_refreshed == 0 && !m_fieldStale)
             break;
         Stopwatch watch;
@@ -372,16 +373,16 @@ glm::vec3 ProbeLighting::marchedFrom(std::uint32_t origin, const FieldReading& r
     std::map<std::uint32_t, MarchedMaps> probes; // of one probe each, of this origin's radiance
     const std::size_t texels = m_maps.map.texels();
     for (const FieldReading::Marched& m : reading.marched) {
-        if (m.at.probe == MarchedRay::kNoProbe)
+        if (m.lookup.probe == MarchedRay::kNoProbe)
             continue;
-        const auto [known, isNew] = probes.try_emplace(m.at.probe);
+        const auto [known, isNew] = probes.try_emplace(m.lookup.probe);
         if (isNew) {
             known->second = emptyMarchedMaps(glm::uvec3(1), m_maps.grid.bounds, m_maps.map.side);
-            std::copy_n(m_light.texels[origin].data() + m.at.probe * texels, texels,
+            std::copy_n(m_light.texels[origin].data() + m.lookup.probe * texels, texels,
                         known->second.radiance[0].data());
             updateLevels(known->second, 0);
         }
-        sum += m.weight * marchedRadiance(known->second, {0, m.at.direction, m.at.spread});
+        sum += m.weight * marchedRadiance(known->second, {0, m.lookup.direction, m.lookup.spread});
     }
     return sum;
 }
