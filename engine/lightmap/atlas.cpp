@@ -193,9 +193,9 @@ Atlas buildAtlas(const Scene& scene, std::vector<MeshCharts> charts, const BakeS
         const std::uint32_t instance = places[p].instance;
         for (const LocalTexel& t : covered[p])
             for (std::uint32_t back = 0; back < places[p].sides; ++back) {
-                const glm::uvec2 at = glm::uvec2(places[p].offset) + t.at;
-                const std::uint32_t y = at.y + back * layout.instances[instance].backRows;
-                atlas.texels.push_back({y * layout.width + at.x, instance, back,
+                const glm::uvec2 position = glm::uvec2(places[p].offset) + t.position;
+                const std::uint32_t y = position.y + back * layout.instances[instance].backRows;
+                atlas.texels.push_back({y * layout.width + position.x, instance, back,
                                         1 / (atlas.texelsPerMetre * places[p].factor), t.count,
                                         t.points});
             }
@@ -231,19 +231,19 @@ glm::vec2 snappedUv(const LightmapLayout& layout, glm::vec2 base, glm::vec2 f, s
 
 AtlasLookup lookupAt(const LightmapLayout& layout, glm::vec2 uv) {
     const glm::vec2 size(float(layout.width), float(layout.height));
-    const auto at = [&](glm::vec2 p, float width) {
+    const auto lookup = [&](glm::vec2 p, float width) {
         AtlasLookup l{glm::floor(p), p - glm::floor(p), 0, false, width};
         l.inside = l.base.x >= 0 && l.base.y >= 0 && l.base.x < size.x && l.base.y < size.y;
         if (l.inside && !layout.snaps.empty())
             l.snaps = layout.snaps[std::size_t(l.base.y) * layout.width + std::size_t(l.base.x)];
         return l;
     };
-    AtlasLookup l = at(uv * size - 0.5f, 1);
+    AtlasLookup l = lookup(uv * size - 0.5f, 1);
     for (int level = 0; level < kFineLevels && (l.snaps & kFineLookup); ++level) {
         const std::uint32_t block = l.snaps & ~kFineLookup;
-        l = at(glm::vec2(float(block % layout.width), float(block / layout.width)) +
-                   l.f * float(kFineCells),
-               l.width / float(kFineCells));
+        l = lookup(glm::vec2(float(block % layout.width), float(block / layout.width)) +
+                       l.f * float(kFineCells),
+                   l.width / float(kFineCells));
     }
     return l;
 }

@@ -103,11 +103,12 @@ void variedFields(A& a, V& v, const Scene& scene, const std::vector<MeshCharts>&
     a("chart", v.chart, rule::holds("out of range", [&](std::uint32_t chart) {
           return chart < charts[scene.instances[v.instance].mesh].chartSize.size();
       }));
-    a("at", v.at, rule::each("not on the mesh", [&](std::size_t, const MeshPoint& p) {
+    a("at", v.points, rule::each("not on the mesh", [&](std::size_t, const MeshPoint& p) {
           return isPointOf(scene.meshOf(scene.instances[v.instance]), p);
       }));
-    a("back", v.back, rule::count(v.at.size()), rule::below(2));
-    a("fours", v.fours, rule::count(v.at.size()), rule::within(kMinDensityClass, kMaxDensityClass));
+    a("back", v.back, rule::count(v.points.size()), rule::below(2));
+    a("fours", v.fours, rule::count(v.points.size()),
+      rule::within(kMinDensityClass, kMaxDensityClass));
 }
 
 template <class A, class D>
@@ -156,10 +157,10 @@ void atlasFields(A& a, T& t, const Scene& scene, const std::vector<MeshCharts>& 
       }));
     a("texelsPerMetre", t.texelsPerMetre, rule::within(1e-30, 1e30));
     a.each("instances", l.instances, rule::count(scene.instances.size()), [&](auto& i) {
-        const auto at = std::size_t(&i - l.instances.data());
+        const auto instance = std::size_t(&i - l.instances.data());
         a("uv", i.uv, rule::within(0, 1),
-          rule::count(hasCharts(scene, charts, at)
-                          ? charts[scene.instances[at].mesh].sourceVertex.size()
+          rule::count(hasCharts(scene, charts, instance)
+                          ? charts[scene.instances[instance].mesh].sourceVertex.size()
                           : 0));
         a("backRows", i.backRows, rule::below(l.height));
     });
@@ -223,12 +224,12 @@ struct TexelInput {
     StageStore* store;
     std::uint64_t& rays;
 
-    LaidTexels lay(std::uint32_t base, std::uint64_t most) const;
+    LaidTexels lay(std::uint32_t base, std::uint64_t maxTexels) const;
 };
 
-/// Lays about `base` coarse texels, and finer ones up to `most` in total. Incomplete when
+/// Lays about `base` coarse texels, and finer ones up to `maxTexels` in total. Incomplete when
 /// cancelled.
-LaidTexels TexelInput::lay(std::uint32_t base, std::uint64_t most) const {
+LaidTexels TexelInput::lay(std::uint32_t base, std::uint64_t maxTexels) const {
     BakeSettings settings = scene.bake;
     settings.lightmapCaches = std::max(base, 1U);
     LaidTexels result;
@@ -242,11 +243,13 @@ LaidTexels TexelInput::lay(std::uint32_t base, std::uint64_t most) const {
         return result;
     const std::uint64_t laid = result.atlas.texels.size();
     result.fine = keptOrMade<FineLookups>(
-        store, stageKey(Stage::FineTexels, surfacesKey(trace, meshes, hashValue(result.key, most))),
+        store,
+        stageKey(Stage::FineTexels, surfacesKey(trace, meshes, hashValue(result.key, maxTexels))),
         progress, [&](auto& a, auto& f) { fineFields(a, f, result.atlas.layout); },
         [&] {
-            FineLookups made = findFineLookups(
-                trace, result.atlas, density, std::uint32_t(most - std::min(most, laid)), progress);
+            FineLookups made =
+                findFineLookups(trace, result.atlas, density,
+                                std::uint32_t(maxTexels - std::min(maxTexels, laid)), progress);
             rays += made.rays;
             return made;
         });

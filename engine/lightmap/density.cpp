@@ -160,11 +160,11 @@ void DensityFinder::addProbes(Chart& chart, std::uint32_t count) {
 
 /// Traces cosine-weighted rays.
 void DensityFinder::look(Probe& probe, Met* met) const {
-    WorldPoint at = worldPoint(m_scene, m_scene.instances[probe.instance], probe.point);
+    WorldPoint point = worldPoint(m_scene, m_scene.instances[probe.instance], probe.point);
     if (probe.back)
-        at.normal = -at.normal;
-    const glm::mat3 toWorld = basisAround(at.normal);
-    const glm::vec3 from = m_trace.clearOf(at.position, at.normal);
+        point.normal = -point.normal;
+    const glm::mat3 toWorld = basisAround(point.normal);
+    const glm::vec3 from = m_trace.clearOf(point.position, point.normal);
     const DirectionSet directions(m_rays, false, probe.seed);
     std::uint32_t backs = 0;
     for (std::uint32_t r = 0; r < m_rays; ++r) {
@@ -204,14 +204,14 @@ void DensityFinder::findDetail(float nearest) {
     std::vector<double> sum(m_scene.instances.size()), open(sum.size());
     double texels = 0; // relative
     for (Chart& c : m_all) {
-        double own = 0, count = 0;
+        double chartSum = 0, count = 0;
         for (std::uint32_t p = c.begin; p < c.end; ++p)
             if (!m_probes[p].inSolid) {
-                own += std::pow(nearness(p, nearest), 4);
+                chartSum += std::pow(nearness(p, nearest), 4);
                 ++count;
             }
-        c.detail = count > 0 ? std::cbrt(own / count) : -1;
-        sum[c.instance] += own;
+        c.detail = count > 0 ? std::cbrt(chartSum / count) : -1;
+        sum[c.instance] += chartSum;
         open[c.instance] += count;
         texels += c.area * c.sides * std::max(c.detail, 0.);
     }
@@ -279,7 +279,7 @@ std::vector<VariedChart> DensityFinder::varied() const {
         if (numbers[chart] == ~0U || fours < m_all[chart].fours + kFar)
             return;
         VariedChart& v = result[numbers[chart]];
-        v.at.push_back(met.point);
+        v.points.push_back(met.point);
         v.back.push_back(m_all[chart].sides > 1 ? met.back : 0);
         v.fours.push_back(fours);
     });
@@ -347,7 +347,7 @@ std::vector<MeshHits> DensityFinder::hits() const {
             for (std::uint32_t r = 0; r < m_rays && !m_probes[p].inSolid; ++r)
                 if (const Met& met = m_met[std::size_t(p) * m_rays + r]; met.instance != ~0U) {
                     MeshHits& hits = result[m_scene.instances[met.instance].mesh];
-                    hits.at.push_back(met.point);
+                    hits.points.push_back(met.point);
                     hits.weight.push_back(float(texels / (c.end - c.begin)));
                 }
         }

@@ -15,7 +15,7 @@ namespace limn {
 struct VariedChart {
     std::uint32_t instance, chart;
     /// Points where rays from nearby hit it; they find parts too small to be sampled otherwise.
-    std::vector<MeshPoint> at;
+    std::vector<MeshPoint> points;
     std::vector<std::uint32_t> back; ///< per point, 1: on the back
     /// Per point: the exponent of 4 by which its texels per metre should be multiplied.
     std::vector<std::int32_t> fours;

@@ -32,13 +32,13 @@ std::uint64_t FineLookups::texels() const {
 
 TexelGrid::TexelGrid(const Scene& scene, const Atlas& atlas)
     : m_scene(scene), m_atlas(atlas),
-      m_at(std::size_t(atlas.layout.width) * atlas.layout.height, kNone) {
+      m_texelAt(std::size_t(atlas.layout.width) * atlas.layout.height, kNone) {
     for (std::uint32_t i = 0; i < atlas.texels.size(); ++i)
-        m_at[atlas.texels[i].texel] = i;
+        m_texelAt[atlas.texels[i].texel] = i;
 }
 
 bool TexelGrid::holds(std::uint32_t place, const PlacedTriangle& t) const {
-    if (place >= m_at.size() || m_at[place] == kNone)
+    if (place >= m_texelAt.size() || m_texelAt[place] == kNone)
         return false;
     const AtlasTexel& texel = (*this)[place];
     const std::vector<std::uint32_t>& chartOf =
@@ -80,17 +80,17 @@ std::vector<PlacedTriangle> addFineLevel(const Scene& scene,
         });
     std::vector<AtlasTexel> more;
     grow(layout, std::uint32_t(fineRows(layout, places.size())));
-    forPlaces(parts, [&](std::uint32_t place, std::span<const BlockTriangle> of) {
+    forPlaces(parts, [&](std::uint32_t place, std::span<const BlockTriangle> placeParts) {
         const auto block = std::uint32_t(std::ranges::lower_bound(places, place) - places.begin());
         const glm::uvec2 first(block % perRow * kBlockSide, top + block / perRow * kBlockSide);
         layout.snaps[place] = kFineLookup | (first.y * layout.width + first.x);
         const AtlasTexel& owner = grid[place];
-        for (const LocalTexel& t : coverBlock(of)) {
-            const glm::uvec2 at = first + t.at;
-            more.push_back({at.y * layout.width + at.x, owner.instance, owner.back,
+        for (const LocalTexel& t : coverBlock(placeParts)) {
+            const glm::uvec2 position = first + t.position;
+            more.push_back({position.y * layout.width + position.x, owner.instance, owner.back,
                             owner.width / float(kFineCells), t.count, t.points});
         }
-        for (const BlockTriangle& part : of) {
+        for (const BlockTriangle& part : placeParts) {
             const glm::ivec2 lower(first);
             result.push_back({owner.instance, owner.back, part.flat.triangle, part.flat.corner,
                               lower, lower + int(kFineCells)});

@@ -40,7 +40,9 @@ public:
     TexelGrid(const Scene& scene, const Atlas& atlas);
 
     /// Texel at a place. Precondition: there is one.
-    const AtlasTexel& operator[](std::uint32_t place) const { return m_atlas.texels[m_at[place]]; }
+    const AtlasTexel& operator[](std::uint32_t place) const {
+        return m_atlas.texels[m_texelAt[place]];
+    }
 
     /// Whether the lookups at a place belong to the triangle's side and chart.
     bool holds(std::uint32_t place, const PlacedTriangle& t) const;
@@ -51,7 +53,7 @@ public:
 private:
     const Scene& m_scene;
     const Atlas& m_atlas;
-    std::vector<std::uint32_t> m_at; ///< per place: into Atlas::texels; ~0: none
+    std::vector<std::uint32_t> m_texelAt; ///< per place: into Atlas::texels; ~0: none
 };
 
 /// Computes how triangles lie in the places selected by wanted(place, triangle), sorted by place.

@@ -25,15 +25,15 @@ std::vector<std::int32_t> metAt(const Scene& scene, const BakeDensity& density,
     constexpr std::int32_t kNothing = -100;
     std::vector<std::int32_t> result(std::size_t(layout.width) * layout.height, kNothing);
     for (const VariedChart& v : density.varied)
-        for (std::size_t i = 0; i < v.at.size(); ++i) {
-            const MeshPoint& p = v.at[i];
+        for (std::size_t i = 0; i < v.points.size(); ++i) {
+            const MeshPoint& p = v.points[i];
             const AtlasLookup l = lookupAt(
                 layout, unsnappedUv(layout, v.instance, scene.instances[v.instance].mesh,
                                     p.triangle, p.barycentric.x, p.barycentric.y, v.back[i] != 0));
             if (l.inside) {
-                std::int32_t& at =
+                std::int32_t& fours =
                     result[std::size_t(l.base.y) * layout.width + std::size_t(l.base.x)];
-                at = std::max(at, v.fours[i]);
+                fours = std::max(fours, v.fours[i]);
             }
         }
     return result;
@@ -55,8 +55,8 @@ public:
             const DirectionSet directions(kRaysPerTexel, false, seedOf(scene, one));
             const glm::mat3 toWorld = basisAround(p.normal);
             const glm::vec3 from = m_trace.clearOf(p.position, p.normal);
-            const std::size_t quarter =
-                (t.at.x > kFineCells / 2 ? 1U : 0U) + (t.at.y > kFineCells / 2 ? 2U : 0U);
+            const std::size_t quarter = (t.position.x > kFineCells / 2 ? 1U : 0U) +
+                                        (t.position.y > kFineCells / 2 ? 2U : 0U);
             for (std::uint32_t r = 0; r < kRaysPerTexel; ++r) {
                 const SurfaceHit hit =
                     m_trace.closestSurface({from, toWorld * directions[r]}, TraceMask::Static);
@@ -64,11 +64,11 @@ public:
                 ++rays[quarter];
             }
         }
-        double most = 0;
+        double maxDetail = 0;
         for (std::size_t q = 0; q < 4; ++q)
             if (rays[q] > 0)
-                most = std::max(most, detailOf(sum[q] / rays[q] * m_density.size));
-        return most;
+                maxDetail = std::max(maxDetail, detailOf(sum[q] / rays[q] * m_density.size));
+        return maxDetail;
     }
 
 private:
@@ -94,14 +94,14 @@ std::vector<PlacedTriangle> variedTriangles(const Scene& scene, const BakeDensit
 }
 
 FineLookups findFineLookups(const TraceScene& trace, const Atlas& atlas, const BakeDensity& density,
-                            std::uint32_t most, const Progress& progress) {
+                            std::uint32_t maxTexels, const Progress& progress) {
     FineLookups result;
     Atlas grown = atlas;
     std::vector<PlacedTriangle> triangles = variedTriangles(trace.scene(), density, grown.layout);
     const BlockProbe probe(trace, density);
     const float base = 1 / grown.texelsPerMetre;
     const Progress quiet{.report = {}, .cancel = progress.cancel};
-    while (!triangles.empty() && most >= kBlockTexels) {
+    while (!triangles.empty() && maxTexels >= kBlockTexels) {
         const TexelGrid grid(trace.scene(), grown);
         const std::vector<BlockTriangle> parts = partTriangles(
             triangles, grown.layout.width,
@@ -114,8 +114,8 @@ FineLookups findFineLookups(const TraceScene& trace, const Atlas& atlas, const B
             std::uint64_t rays;
         };
         std::vector<Candidate> all;
-        forPlaces(parts, [&](std::uint32_t place, std::span<const BlockTriangle> of) {
-            all.push_back({place, of, 0, 0});
+        forPlaces(parts, [&](std::uint32_t place, std::span<const BlockTriangle> placeParts) {
+            all.push_back({place, placeParts, 0, 0});
         });
         parallelRanges(all.size(), 16, quiet, "charts", [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -123,8 +123,8 @@ FineLookups findFineLookups(const TraceScene& trace, const Atlas& atlas, const B
                 const std::vector<LocalTexel> texels = coverBlock(all[i].parts);
                 all[i].rays = texels.size() * kRaysPerTexel;
                 // Texels of width base / 4^k have class k, besides the instance's own density.
-                const float own = trace.scene().instances[owner.instance].texelDensity;
-                const double has = std::log2(double(base / (owner.width * own))) / 2;
+                const float instanceDensity = trace.scene().instances[owner.instance].texelDensity;
+                const double has = std::log2(double(base / (owner.width * instanceDensity))) / 2;
                 // A single ray overestimates how near everything is; it counts as one class less.
                 const double detail =
                     std::max(probe.detail(owner, texels),
@@ -140,8 +140,8 @@ FineLookups findFineLookups(const TraceScene& trace, const Atlas& atlas, const B
             result.rays += c.rays;
         std::erase_if(all, [](const Candidate& c) { return !(c.detail > 0); });
         std::ranges::stable_sort(all, std::greater<>(), &Candidate::detail);
-        all.resize(std::min<std::size_t>(all.size(), most / kBlockTexels));
-        most -= std::uint32_t(all.size()) * kBlockTexels;
+        all.resize(std::min<std::size_t>(all.size(), maxTexels / kBlockTexels));
+        maxTexels -= std::uint32_t(all.size()) * kBlockTexels;
         std::vector<std::uint32_t> places;
         for (const Candidate& c : all)
             places.push_back(c.place);

@@ -16,10 +16,10 @@ std::vector<PlacedTriangle> variedTriangles(const Scene& scene, const BakeDensit
                                             const LightmapLayout& layout);
 
 /// Traces rays from all lookups of the charts whose density varies (BakeDensity::varied) and
-/// refines those that need more than their texels, nearest surroundings first, up to `most` texels.
-/// A ground 200 m wide thus gets texels of centimetres inside the house that stands on it. The
-/// result must not be used when cancelled.
+/// refines those that need more than their texels, nearest surroundings first, by up to `maxTexels`
+/// texels. A ground 200 m wide thus gets texels of centimetres inside the house that stands on it.
+/// The result must not be used when cancelled.
 FineLookups findFineLookups(const TraceScene& trace, const Atlas& atlas, const BakeDensity& density,
-                            std::uint32_t most, const Progress& progress);
+                            std::uint32_t maxTexels, const Progress& progress);
 
 } // namespace limn

@@ -34,9 +34,10 @@ LampLight::LampLight(const TraceScene& trace) : m_trace(trace) {
         Lamp lamp{i, m_triangles.size(), 0, kNoBounds};
         double roots = 0;
         for (std::uint32_t t = 0; t < scene.meshOf(instance).triangleCount(); ++t) {
-            const auto own = double(triangleWorldArea(scene, instance, t));
-            roots += std::sqrt(own);
-            m_triangles.push_back({i, t, std::sqrt(own), own > 0 ? 1 / std::sqrt(own) : 0});
+            const auto worldArea = double(triangleWorldArea(scene, instance, t));
+            roots += std::sqrt(worldArea);
+            m_triangles.push_back(
+                {i, t, std::sqrt(worldArea), worldArea > 0 ? 1 / std::sqrt(worldArea) : 0});
             m_bounds.push_back(kNoBounds);
             for (const glm::vec2 corner : {glm::vec2(0), {1, 0}, {0, 1}})
                 extend(m_bounds.back(), worldPoint(scene, instance, {t, corner}).position);
@@ -95,12 +96,14 @@ LampPoints LampLight::pointsOnLamps(std::uint32_t samples, std::uint32_t seed) c
                          m_triangles.begin(),
                      std::ptrdiff_t(m_triangles.size()) - 1);
         const Emitter& e = m_triangles[std::size_t(emitter)];
-        const auto shifted = [](float x, float by) { return x + by - std::floor(x + by); };
+        const auto shifted = [](float x, float offset) {
+            return x + offset - std::floor(x + offset);
+        };
         const glm::vec2 square(shifted(radicalInverse(r, 2), second),
                                shifted(radicalInverse(r, 3), first));
-        const WorldPoint at =
+        const WorldPoint point =
             worldPoint(scene, scene.instances[e.instance], {e.triangle, sampleTriangle(square)});
-        result.all.push_back({std::uint32_t(emitter), at});
+        result.all.push_back({std::uint32_t(emitter), point});
     }
     return result;
 }

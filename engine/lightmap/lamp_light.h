@@ -27,7 +27,7 @@ constexpr std::uint32_t raysOf(std::uint32_t samples) {
 struct LampPoints {
     struct OnLamp {
         std::uint32_t emitter; ///< LampLight's own number
-        WorldPoint at;
+        WorldPoint point;
     };
     std::uint32_t samples; ///< number of directions
     std::vector<OnLamp> all;

@@ -20,12 +20,13 @@ constexpr std::uint32_t kFewSamples = 2, kManySamples = 8; ///< at each point of
 
 /// What the open points of a texel see.
 struct TexelLight {
-    double least = HUGE_VAL, most = -HUGE_VAL; ///< irradiance [m^-2]; least > most: none is open
-    bool nearLamp = false; ///< a lamp lies within a texel's width of one of them
+    double minimum = HUGE_VAL;  ///< irradiance [m^-2]
+    double maximum = -HUGE_VAL; ///< less than `minimum` where no point is open
+    bool nearLamp = false;      ///< a lamp lies within a texel's width of one of them
 
     void add(const TexelLight& o) {
-        least = std::min(least, o.least);
-        most = std::max(most, o.most);
+        minimum = std::min(minimum, o.minimum);
+        maximum = std::max(maximum, o.maximum);
         nearLamp = nearLamp || o.nearLamp;
     }
 };
@@ -78,7 +79,7 @@ public:
     double gain(const AtlasTexel& owner, const std::vector<LocalTexel>& texels, bool nearLamp);
 
     /// Squared error [m^-4], times the area, that a block must remove to be worth its texels.
-    double least() const {
+    double minGain() const {
         return kBlockTexels * kLampError * kLampError * m_mean * m_mean * m_area / m_wanted;
     }
 
@@ -92,21 +93,21 @@ private:
     const TraceScene& m_trace;
     LampLight m_light;
     std::uint32_t m_wanted;
-    std::vector<TexelLight> m_at;  ///< per place of the atlas
-    double m_area = 0, m_mean = 0; ///< of the texels, and the irradiance over it
+    std::vector<TexelLight> m_lightAt; ///< per place of the atlas
+    double m_area = 0, m_mean = 0;     ///< of the texels, and the irradiance over it
     std::atomic<std::uint64_t> m_rays = 0;
 };
 
 /// Estimates the light of the atlas' texels from number `from` on.
 void LampTexels::look(const Atlas& atlas, std::size_t from, const Progress& progress) {
-    m_at.resize(std::size_t(atlas.layout.width) * atlas.layout.height);
+    m_lightAt.resize(std::size_t(atlas.layout.width) * atlas.layout.height);
     // The same places of lamps for all texels, since differences matter.
     const LampPoints lamps = m_light.pointsOnLamps(kRoughSamples, 0);
     std::vector<double> mean(atlas.texels.size() - from);
     parallelRanges(mean.size(), 64, progress, "charts", [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const AtlasTexel& t = atlas.texels[from + i];
-            TexelLight& light = m_at[t.texel];
+            TexelLight& light = m_lightAt[t.texel];
             for (std::uint32_t k = 0; k < t.count; ++k) {
                 const WorldPoint p = texelPoint(m_trace.scene(), t, k);
                 const LampIrradiance e =
@@ -131,15 +132,15 @@ void LampTexels::look(const Atlas& atlas, std::size_t from, const Progress& prog
 TexelLight LampTexels::cornersAt(std::uint32_t place, std::uint32_t width) const {
     TexelLight all;
     for (const std::uint32_t corner : {place, place + 1, place + width, place + width + 1})
-        all.add(m_at[corner]);
+        all.add(m_lightAt[corner]);
     return all;
 }
 
 /// Whether the four texels of a place differ enough, or a lamp is near enough, to look closer.
 bool LampTexels::mayVary(std::uint32_t place, std::uint32_t width, const AtlasTexel& owner) const {
     const TexelLight all = cornersAt(place, width);
-    const double range = all.most - all.least;
-    return range >= 0 && (all.nearLamp || 4 * range * range * areaOf(owner) > least());
+    const double range = all.maximum - all.minimum;
+    return range >= 0 && (all.nearLamp || 4 * range * range * areaOf(owner) > minGain());
 }
 
 /// An estimate of the light at a point of a block.
@@ -166,14 +167,14 @@ SquareEstimate LampTexels::error(const AtlasTexel& owner, const std::vector<Loca
     std::array<std::array<OpenMean, 4>, 2> corner{};
     std::uint64_t looks = 0;
     for (const LocalTexel& t : texels)
-        if (t.at.x % kFineCells == 0 && t.at.y % kFineCells == 0)
+        if (t.position.x % kFineCells == 0 && t.position.y % kFineCells == 0)
             for (std::uint32_t i = 0; i < t.count; ++i)
                 for (std::uint32_t k = 0; k < 2; ++k, ++looks)
-                    corner[k][t.at.x / kFineCells + 2 * (t.at.y / kFineCells)].add(
+                    corner[k][t.position.x / kFineCells + 2 * (t.position.y / kFineCells)].add(
                         lightAt(owner, t.points[i], k, lamps[k]));
     SquareEstimate result;
     for (const LocalTexel& t : texels) {
-        const glm::dvec2 f = glm::dvec2(t.at) / double(kFineCells);
+        const glm::dvec2 f = glm::dvec2(t.position) / double(kFineCells);
         const std::array<double, 4> weight = {(1 - f.x) * (1 - f.y), f.x * (1 - f.y),
                                               (1 - f.x) * f.y, f.x * f.y};
         Pair read{}, weights{};
@@ -219,11 +220,11 @@ struct Candidate {
     double worth = 0; ///< squared error that a block may remove or removes, times its area [m^-2]
 };
 
-/// Keeps up to `most` candidates worth more than `least`, the best first.
-void keepBest(std::vector<Candidate>& all, double least, std::size_t most) {
-    std::erase_if(all, [&](const Candidate& c) { return !(c.worth > least); });
+/// Keeps up to `maxCount` candidates worth more than `minWorth`, the best first.
+void keepBest(std::vector<Candidate>& all, double minWorth, std::size_t maxCount) {
+    std::erase_if(all, [&](const Candidate& c) { return !(c.worth > minWorth); });
     std::ranges::stable_sort(all, std::greater<>(), &Candidate::worth);
-    all.resize(std::min(all.size(), most));
+    all.resize(std::min(all.size(), maxCount));
 }
 
 /// The triangles in lookups that may need a block.
@@ -249,9 +250,9 @@ std::vector<BlockTriangle> varyingParts(const LampTexels& lamps, const TexelGrid
     return parts;
 }
 
-/// Reduces the candidates to the `most` blocks that remove most. Candidates that can hardly be
+/// Reduces the candidates to the `maxBlocks` blocks that remove most. Candidates that can hardly be
 /// among them are judged by few samples, which may see nothing of the rim of a lamp nearby.
-void chooseBlocks(LampTexels& lamps, const TexelGrid& grid, std::size_t most,
+void chooseBlocks(LampTexels& lamps, const TexelGrid& grid, std::size_t maxBlocks,
                   const Progress& progress, std::vector<Candidate>& all) {
     constexpr std::size_t kJudged = 4; // times as many as are chosen
     const auto judge = [&](const auto& worthOf) {
@@ -263,18 +264,18 @@ void chooseBlocks(LampTexels& lamps, const TexelGrid& grid, std::size_t most,
     judge([&](const Candidate& c, const AtlasTexel& owner) {
         return c.nearLamp ? HUGE_VAL : lamps.promise(owner, coverBlock(c.parts));
     });
-    keepBest(all, lamps.least(), kJudged * most);
+    keepBest(all, lamps.minGain(), kJudged * maxBlocks);
     judge([&](const Candidate& c, const AtlasTexel& owner) {
         return lamps.gain(owner, coverBlock(c.parts), c.nearLamp);
     });
-    keepBest(all, lamps.least(), most);
+    keepBest(all, lamps.minGain(), maxBlocks);
 }
 
 } // namespace
 
 FineLookups findLampLookups(const TraceScene& trace, const Atlas& atlas,
                             std::vector<PlacedTriangle> triangles, std::uint32_t wanted,
-                            std::uint32_t most, int levels, const Progress& progress) {
+                            std::uint32_t maxTexels, int levels, const Progress& progress) {
     FineLookups result;
     LampTexels lamps(trace, wanted);
     if (lamps.none())
@@ -282,20 +283,21 @@ FineLookups findLampLookups(const TraceScene& trace, const Atlas& atlas,
     Atlas grown = atlas;
     const Progress quiet{.report = {}, .cancel = progress.cancel};
     std::size_t looked = 0;
-    for (int level = 0; level < levels && most >= kBlockTexels && !triangles.empty(); ++level) {
+    for (int level = 0; level < levels && maxTexels >= kBlockTexels && !triangles.empty();
+         ++level) {
         lamps.look(grown, looked, quiet);
         looked = grown.texels.size();
         const TexelGrid grid(trace.scene(), grown);
         const std::vector<BlockTriangle> parts = varyingParts(lamps, grid, grown.layout, triangles);
         std::vector<Candidate> chosen;
-        forPlaces(parts, [&](std::uint32_t place, std::span<const BlockTriangle> of) {
-            chosen.push_back({place, of, lamps.isNearLamp(place, grown.layout.width)});
+        forPlaces(parts, [&](std::uint32_t place, std::span<const BlockTriangle> placeParts) {
+            chosen.push_back({place, placeParts, lamps.isNearLamp(place, grown.layout.width)});
         });
-        const std::uint32_t share = level + 1 < levels ? most / 2 : most;
+        const std::uint32_t share = level + 1 < levels ? maxTexels / 2 : maxTexels;
         chooseBlocks(lamps, grid, share / kBlockTexels, quiet, chosen);
         if (progress.cancelled())
             return {};
-        most -= std::uint32_t(chosen.size()) * kBlockTexels;
+        maxTexels -= std::uint32_t(chosen.size()) * kBlockTexels;
         std::vector<std::uint32_t> places;
         for (const Candidate& c : chosen)
             places.push_back(c.place);

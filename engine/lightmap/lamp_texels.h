@@ -21,11 +21,11 @@ inline constexpr double kLampError = 0.1;
 /// irradiance by LampLight, relative to its mean over all texels. It is measured twice, with
 /// independent samples; the product of both deviations has no bias by their noise.
 ///
-/// `triangles` lie in all lookups of the atlas. Adds at most `most` texels, those that remove most
-/// first, on at most `levels` levels, of which each may use half of what is left. The result must
-/// not be used when cancelled.
+/// `triangles` lie in all lookups of the atlas. Adds at most `maxTexels` texels, those that remove
+/// most first, on at most `levels` levels, of which each may use half of what is left. The result
+/// must not be used when cancelled.
 FineLookups findLampLookups(const TraceScene& trace, const Atlas& atlas,
                             std::vector<PlacedTriangle> triangles, std::uint32_t wanted,
-                            std::uint32_t most, int levels, const Progress& progress);
+                            std::uint32_t maxTexels, int levels, const Progress& progress);
 
 } // namespace limn

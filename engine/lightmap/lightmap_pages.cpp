@@ -83,7 +83,7 @@ std::uint64_t areaOf(const ChartBox& box) {
 /// keep page kNoPage.
 constexpr std::uint32_t kNoPage = ~0U;
 struct Place {
-    glm::uvec2 at{0};
+    glm::uvec2 position{0};
     std::uint32_t page = kNoPage;
 };
 
@@ -151,10 +151,10 @@ LightmapPages lightmapPages(const Scene& scene, const LightmapLayout& layout, st
     for (std::size_t k = 0; k < boxes.size(); ++k) {
         const ChartBox& box = boxes[k];
         assert(places[k].page != kNoPage);
-        used = glm::max(used, places[k].at + box.size);
+        used = glm::max(used, places[k].position + box.size);
         pages.count = std::max(pages.count, places[k].page + 1);
         pages.copies.push_back(
-            {box.lower * factor, box.size * factor, places[k].at * factor, places[k].page});
+            {box.lower * factor, box.size * factor, places[k].position * factor, places[k].page});
         pages.instances[box.instance][box.side].page[box.chart] = places[k].page;
     }
     pages.width = used.x * factor;
@@ -169,7 +169,7 @@ LightmapPages lightmapPages(const Scene& scene, const LightmapLayout& layout, st
                 continue;
             shift.assign(charts.chartSize.size(), glm::vec2(0));
             for (; k < boxes.size() && boxes[k].instance == i && boxes[k].side == side; ++k)
-                shift[boxes[k].chart] = glm::vec2(places[k].at) - glm::vec2(boxes[k].lower);
+                shift[boxes[k].chart] = glm::vec2(places[k].position) - glm::vec2(boxes[k].lower);
             const std::vector<glm::vec2> whole = uv;
             for (std::size_t j = 0; j < charts.indices.size(); ++j) {
                 const std::uint32_t vertex = charts.indices[j];

@@ -42,9 +42,9 @@ MeshDensity cellDensities(const Mesh& mesh, const MeshCharts& charts, const Mesh
     MeshDensity result;
     std::vector<std::size_t> count(triangles);
     std::vector<double> chartSum(charts.chartSize.size());
-    for (std::size_t i = 0; i < hits.at.size(); ++i) {
-        ++count[hits.at[i].triangle];
-        chartSum[charts.chartOfTriangle[hits.at[i].triangle]] += double(hits.weight[i]);
+    for (std::size_t i = 0; i < hits.points.size(); ++i) {
+        ++count[hits.points[i].triangle];
+        chartSum[charts.chartOfTriangle[hits.points[i].triangle]] += double(hits.weight[i]);
     }
     std::uint32_t cells = 0;
     for (std::size_t t = 0; t < triangles; ++t) {
@@ -53,8 +53,8 @@ MeshDensity cellDensities(const Mesh& mesh, const MeshCharts& charts, const Mesh
         cells += 1U << 2 * result.level.back();
     }
     result.density.assign(cells, 0);
-    for (std::size_t i = 0; i < hits.at.size(); ++i) {
-        const MeshPoint& p = hits.at[i];
+    for (std::size_t i = 0; i < hits.points.size(); ++i) {
+        const MeshPoint& p = hits.points[i];
         result.density[result.cell(p.triangle, result.cellAt(p.triangle, p.barycentric))] +=
             hits.weight[i];
     }
@@ -62,9 +62,9 @@ MeshDensity cellDensities(const Mesh& mesh, const MeshCharts& charts, const Mesh
         const std::uint32_t c = charts.chartOfTriangle[t];
         const double ofChart = drawn(chartSum[c], shapes.area[c] * toWorld, perHit, ofMesh);
         const double area = double(triangleArea(mesh, t)) * toWorld;
-        forCells(result.side(t), [&](glm::uvec2 at) {
-            float& d = result.density[result.cell(t, at)];
-            d = float(std::max(drawn(double(d), area * result.share(t, at), perHit, ofChart),
+        forCells(result.side(t), [&](glm::uvec2 cell) {
+            float& d = result.density[result.cell(t, cell)];
+            d = float(std::max(drawn(double(d), area * result.share(t, cell), perHit, ofChart),
                                ofMesh / 2));
         });
     }
@@ -77,7 +77,7 @@ void simplify(MeshDensity& d) {
     for (std::uint32_t t = 0; t < d.level.size(); ++t) {
         bool same = true;
         forCells(d.side(t),
-                 [&](glm::uvec2 at) { same = same && d.density[d.cell(t, at)] == first; });
+                 [&](glm::uvec2 cell) { same = same && d.density[d.cell(t, cell)] == first; });
         if (!same)
             return;
     }
@@ -131,8 +131,8 @@ std::vector<MeshDensity> surfelDensities(const Scene& scene, std::span<const Mes
     for (std::size_t m = 0; m < hits.size(); ++m) {
         result[m] = cellDensities(scene.assets->meshes[m], charts[m], shapes[m], hits[m],
                                   sum / count, sum / area);
-        for (std::size_t i = 0; i < hits[m].at.size(); ++i) {
-            const MeshPoint& p = hits[m].at[i];
+        for (std::size_t i = 0; i < hits[m].points.size(); ++i) {
+            const MeshPoint& p = hits[m].points[i];
             squares += double(hits[m].weight[i]) * double(result[m].at(p.triangle, p.barycentric));
         }
     }

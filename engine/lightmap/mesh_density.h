@@ -29,8 +29,8 @@ struct MeshDensity {
         return uniform() ? 1 : 1U << level[triangle];
     }
     /// Index of cell (x, y) of a triangle.
-    std::uint32_t cell(std::uint32_t triangle, glm::uvec2 at) const {
-        return uniform() ? 0 : begin[triangle] + at.y * side(triangle) + at.x;
+    std::uint32_t cell(std::uint32_t triangle, glm::uvec2 c) const {
+        return uniform() ? 0 : begin[triangle] + c.y * side(triangle) + c.x;
     }
     /// Cell (x, y) at barycentrics (u, v).
     glm::uvec2 cellAt(std::uint32_t triangle, glm::vec2 uv) const {
@@ -43,9 +43,9 @@ struct MeshDensity {
         return density[uniform() ? 0 : cell(triangle, cellAt(triangle, uv))];
     }
     /// Share of the triangle's area that lies in cell (x, y).
-    double share(std::uint32_t triangle, glm::uvec2 at) const {
+    double share(std::uint32_t triangle, glm::uvec2 c) const {
         const std::uint32_t n = side(triangle);
-        return (at.x + at.y + 1 == n ? 1.0 : 2.0) / (double(n) * n);
+        return (c.x + c.y + 1 == n ? 1.0 : 2.0) / (double(n) * n);
     }
 
     bool operator==(const MeshDensity&) const = default;
@@ -61,7 +61,7 @@ void forCells(std::uint32_t side, const Visit& visit) {
 
 /// Hits of the caches' rays on one mesh, over all its instances.
 struct MeshHits {
-    std::vector<MeshPoint> at;
+    std::vector<MeshPoint> points;
     std::vector<float> weight; ///< of each hit, > 0
     double area = 0;           ///< area of its instances' lit sides in the world [m^2]
 };

@@ -58,8 +58,8 @@ std::vector<float> nearReaches(const Scene& scene, const LightmapLayout& layout)
     for (std::size_t i = 0; i < areas.size(); ++i) {
         if (layout.instances[i].uv.empty())
             continue;
-        const double own = areas[i].texels > 0 ? areas[i].world / areas[i].texels : mean;
-        reaches[i] = float(std::sqrt(std::min(own, kMaxTexel * mean)) / 2);
+        const double texelArea = areas[i].texels > 0 ? areas[i].world / areas[i].texels : mean;
+        reaches[i] = float(std::sqrt(std::min(texelArea, kMaxTexel * mean)) / 2);
     }
     return reaches;
 }

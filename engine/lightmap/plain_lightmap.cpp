@@ -133,8 +133,8 @@ Claims claimTexels(const Scene& scene, const LightmapLayout& layout, glm::uvec2 
     Claims claims;
     claims.texelAt.assign(std::size_t(size.x) * size.y, kNoTexel);
     forEachTriangle(scene, layout, size, [&](const SideTriangle& t, std::uint32_t chart) {
-        forEachTexel(t, size, [&](std::uint32_t at, const Closest& near) {
-            std::uint32_t& index = claims.texelAt[at];
+        forEachTexel(t, size, [&](std::uint32_t place, const Closest& near) {
+            std::uint32_t& index = claims.texelAt[place];
             if (index == kNoTexel) {
                 index = std::uint32_t(claims.texels.size());
                 claims.texels.emplace_back();
@@ -156,11 +156,13 @@ Claims claimTexels(const Scene& scene, const LightmapLayout& layout, glm::uvec2 
 }
 
 /// Whether a lookup at `uv` reads texels of that chart alone.
-bool readsOnly(const LightmapLayout& layout, const Claims& own, glm::vec2 uv, std::uint32_t chart) {
+bool readsOnly(const LightmapLayout& layout, const Claims& layoutClaims, glm::vec2 uv,
+               std::uint32_t chart) {
     const Bilinear lookup = bilinearAt(layout, uv);
     for (std::size_t k = 0; k < 4; ++k) {
-        const std::uint32_t index = own.texelAt[lookup.texel[k]];
-        if (lookup.weight[k] > kRounding && (index == kNoTexel || own.chart[index] != chart))
+        const std::uint32_t index = layoutClaims.texelAt[lookup.texel[k]];
+        if (lookup.weight[k] > kRounding &&
+            (index == kNoTexel || layoutClaims.chart[index] != chart))
             return false;
     }
     return true;
@@ -170,23 +172,23 @@ bool readsOnly(const LightmapLayout& layout, const Claims& own, glm::vec2 uv, st
 
 void repeatNearest(std::vector<std::uint32_t>& texelAt, glm::uvec2 size) {
     std::vector<std::uint32_t> front, next;
-    for (std::uint32_t at = 0; at < texelAt.size(); ++at)
-        if (texelAt[at] != kNoTexel)
-            front.push_back(at);
+    for (std::uint32_t place = 0; place < texelAt.size(); ++place)
+        if (texelAt[place] != kNoTexel)
+            front.push_back(place);
     while (!front.empty()) {
         next.clear();
-        for (const std::uint32_t at : front) {
-            const std::uint32_t x = at % size.x, y = at / size.x;
+        for (const std::uint32_t place : front) {
+            const std::uint32_t x = place % size.x, y = place / size.x;
             const auto give = [&](bool inside, std::uint32_t to) {
                 if (!inside || texelAt[to] != kNoTexel)
                     return;
-                texelAt[to] = texelAt[at];
+                texelAt[to] = texelAt[place];
                 next.push_back(to);
             };
-            give(x > 0, at - 1);
-            give(x + 1 < size.x, at + 1);
-            give(y > 0, at - size.x);
-            give(y + 1 < size.y, at + size.x);
+            give(x > 0, place - 1);
+            give(x + 1 < size.x, place + 1);
+            give(y > 0, place - size.x);
+            give(y + 1 < size.y, place + size.x);
         }
         std::swap(front, next);
     }
@@ -196,24 +198,24 @@ PlainLightmap plainLightmap(const Scene& scene, const LightmapLayout& layout,
                             std::uint32_t factor) {
     const glm::uvec2 size(layout.width * factor, layout.height * factor);
     // With snaps, only the lookups of surface points are known to read texels that hold light.
-    Claims own;
+    Claims layoutClaims;
     if (layout.snaps.empty())
-        own = claimTexels(scene, layout, {layout.width, layout.height});
+        layoutClaims = claimTexels(scene, layout, {layout.width, layout.height});
     Claims claims = claimTexels(scene, layout, size);
     if (claims.texels.empty())
         return {};
     std::vector<std::uint32_t> placeOf(claims.texels.size());
-    for (std::uint32_t at = 0; at < claims.texelAt.size(); ++at)
-        if (claims.texelAt[at] != kNoTexel)
-            placeOf[claims.texelAt[at]] = at;
+    for (std::uint32_t place = 0; place < claims.texelAt.size(); ++place)
+        if (claims.texelAt[place] != kNoTexel)
+            placeOf[claims.texelAt[place]] = place;
     parallelRanges(claims.texels.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             PlainTexel& texel = claims.texels[i];
-            const glm::uvec2 at(placeOf[i] % size.x, placeOf[i] / size.x);
-            glm::vec2 uv = (glm::vec2(at) + 0.5f) / glm::vec2(size);
+            const glm::uvec2 position(placeOf[i] % size.x, placeOf[i] / size.x);
+            glm::vec2 uv = (glm::vec2(position) + 0.5f) / glm::vec2(size);
             const bool mayLookUp =
                 claims.distance2[i] == 0 ||
-                (layout.snaps.empty() && readsOnly(layout, own, uv, claims.chart[i]));
+                (layout.snaps.empty() && readsOnly(layout, layoutClaims, uv, claims.chart[i]));
             if (!mayLookUp)
                 uv = unsnappedUv(layout, texel.instance, scene.instances[texel.instance].mesh,
                                  texel.triangle, texel.u, texel.v, texel.back);

@@ -155,13 +155,13 @@ void searchLattice(glm::vec2 centre, std::uint32_t triangle, const Corners& flat
         if (out.met >> k & 1 || glm::any(glm::lessThan(p, lower - 1e-4f)) ||
             glm::any(glm::greaterThan(p, upper + 1e-4f)))
             continue;
-        glm::vec3 at = closestPoint(p, flat);
-        if (glm::length(mix3(at, flat) - p) > 1e-4f)
+        glm::vec3 barycentric = closestPoint(p, flat);
+        if (glm::length(mix3(barycentric, flat) - p) > 1e-4f)
             continue;
-        if (std::min({at.x, at.y, at.z}) < 0.02f)
-            at = pullInside(at, flat);
+        if (std::min({barycentric.x, barycentric.y, barycentric.z}) < 0.02f)
+            barycentric = pullInside(barycentric, flat);
         out.met |= 1U << k;
-        out.points[out.found++] = {triangle, {at.y, at.z}};
+        out.points[out.found++] = {triangle, {barycentric.y, barycentric.z}};
     }
 }
 
@@ -190,11 +190,11 @@ void sampleByArea(const AtlasInput& in, const ChartPlace& place, Cover& cover) {
             for (; due >= 1; due -= 1, ++index) {
                 const glm::vec2 uv =
                     sampleTriangle({radicalInverse(index + 1, 2), radicalInverse(index + 1, 3)});
-                const glm::ivec2 at =
+                const glm::ivec2 position =
                     glm::clamp(glm::ivec2(glm::floor(mix3({1 - uv.x - uv.y, uv.x, uv.y}, flat))),
                                glm::ivec2(0), glm::ivec2(place.size) - 1);
                 const std::uint32_t k =
-                    cover.indexOf[std::size_t(at.y) * place.size.x + std::size_t(at.x)];
+                    cover.indexOf[std::size_t(position.y) * place.size.x + std::size_t(position.x)];
                 if (k == ~0U)
                     continue;
                 TexelSearch& texel = cover.found[k];

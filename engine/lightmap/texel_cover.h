@@ -11,7 +11,7 @@ namespace limn {
 
 /// A texel of a place, with the surface points that it represents.
 struct LocalTexel {
-    glm::uvec2 at;
+    glm::uvec2 position;
     std::uint32_t count;
     std::array<MeshPoint, AtlasTexel::kMaxPoints> points;
 };

@@ -66,7 +66,7 @@ TexelSide SideFinder::choose(AtlasTexel& texel) const {
     const Scene& scene = trace.scene();
     TexelSide side{.chart = chartOf(texel)};
     const std::uint32_t seed = seedOf(scene, texel);
-    std::array<std::uint32_t, kSlots> open{}, of{};
+    std::array<std::uint32_t, kSlots> open{}, setOf{}; // its first member identifies a set
     std::array<float, kSlots> distances{};
     std::array<LiftedPoint, kSlots> lifted;
     std::uint32_t first = 0;
@@ -80,25 +80,25 @@ TexelSide SideFinder::choose(AtlasTexel& texel) const {
     }
     side.open = open[first] > 0;
     rays += texel.count * kProbesPerPoint;
-    // SideFinder as sets of points, identified by their first member; usually one point sees all
-    // others.
+    // Joins the points that see one another into sets. Usually one point sees all others.
     for (std::uint32_t k = 0; k < texel.count; ++k)
-        of[k] = k;
+        setOf[k] = k;
     for (std::uint32_t pass = 0; pass < 2 && side.chart != kMixedCharts; ++pass)
         for (std::uint32_t a = 0; a < texel.count; ++a)
             for (std::uint32_t b = 0; b < texel.count; ++b)
-                if (open[a] > 0 && open[b] > 0 && of[a] != of[b] &&
+                if (open[a] > 0 && open[b] > 0 && setOf[a] != setOf[b] &&
                     (pass == 0 ? a == first : a < b)) {
                     ++rays;
                     if (sees(lifted[a], lifted[b]))
-                        std::ranges::replace(of, std::max(of[a], of[b]), std::min(of[a], of[b]));
+                        std::ranges::replace(setOf, std::max(setOf[a], setOf[b]),
+                                             std::min(setOf[a], setOf[b]));
                 }
     std::array<std::uint32_t, kSlots> sum{};
     for (std::uint32_t k = 0; k < texel.count; ++k)
-        sum[of[k]] += open[k];
+        sum[setOf[k]] += open[k];
     const auto best = std::uint32_t(std::ranges::max_element(sum) - sum.begin());
     for (std::uint32_t k = 0; k < texel.count; ++k)
-        if (side.chart != kMixedCharts && of[k] != best && open[k] > 0) {
+        if (side.chart != kMixedCharts && setOf[k] != best && open[k] > 0) {
             open[k] = 0;
             side.split = true;
         }
@@ -158,14 +158,14 @@ TexelSides findTexelSides(const TraceScene& trace, const Atlas& atlas,
 
 struct SideLookup::State {
     State(const TraceScene& trace, const Atlas& a)
-        : atlas(a), sides{trace, a, rays}, at(std::size_t(a.layout.width) * a.layout.height, ~0U),
-          side(a.texels.size()) {}
+        : atlas(a), sides{trace, a, rays},
+          texelAt(std::size_t(a.layout.width) * a.layout.height, ~0U), side(a.texels.size()) {}
 
     const Atlas& atlas;
     mutable std::atomic<std::uint64_t> rays = 0;
     SideFinder sides;
-    std::vector<std::uint32_t> at; ///< per place of the atlas: into Atlas::texels
-    std::vector<TexelSide> side;   ///< of texels about places with snaps
+    std::vector<std::uint32_t> texelAt; ///< per place of the atlas: into Atlas::texels
+    std::vector<TexelSide> side;        ///< of texels about places with snaps
 
     void know(std::uint32_t texel);
     std::array<std::uint32_t, 4> texelsAt(std::uint32_t place) const;
@@ -187,7 +187,7 @@ void SideLookup::State::know(std::uint32_t texel) {
 std::array<std::uint32_t, 4> SideLookup::State::texelsAt(std::uint32_t place) const {
     const std::uint32_t width = atlas.layout.width, x = place % width, y = place / width;
     const auto texel = [&](std::uint32_t i, std::uint32_t j) {
-        return i < width && j < atlas.layout.height ? at[std::size_t(j) * width + i] : ~0U;
+        return i < width && j < atlas.layout.height ? texelAt[std::size_t(j) * width + i] : ~0U;
     };
     return {texel(x, y), texel(x + 1, y), texel(x, y + 1), texel(x + 1, y + 1)};
 }
@@ -196,8 +196,8 @@ SideLookup::SideLookup(const TraceScene& trace, const Atlas& atlas)
     : m_state(std::make_unique<State>(trace, atlas)) {
     State& s = *m_state;
     for (std::uint32_t i = 0; i < atlas.texels.size(); ++i)
-        s.at[atlas.texels[i].texel] = i;
-    for (std::uint32_t p = 0; p < s.at.size() && !atlas.layout.snaps.empty(); ++p)
+        s.texelAt[atlas.texels[i].texel] = i;
+    for (std::uint32_t p = 0; p < s.texelAt.size() && !atlas.layout.snaps.empty(); ++p)
         if (atlas.layout.snaps[p] != 0)
             for (const std::uint32_t t : s.texelsAt(p))
                 if (t != ~0U)

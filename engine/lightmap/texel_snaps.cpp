@@ -20,7 +20,7 @@ constexpr std::array<std::uint32_t, kSnaps> kReads = {0xf, 0x5, 0xa, 0x3, 0xc, 1
 /// Four neighbouring texels of the atlas, and the surface between them.
 struct Quad {
     std::array<std::uint32_t, 4> texel; ///< into Atlas::texels; (x, y), (x+1, y), (x, y+1), …
-    std::uint32_t at = 0;               ///< the first one's place, y * width + x
+    std::uint32_t place = 0;            ///< the first one's place, y * width + x
     std::array<MeshPoint, kCells * kCells> points{};
     std::uint64_t found = 0; ///< bit per point
 };
@@ -44,9 +44,9 @@ public:
             const std::vector<TexelSide>& side, const std::vector<PlacedTriangle>& placed)
         : m_sides(sides), m_layout(sides.atlas.layout), m_texels(texels), m_side(side),
           m_placed(placed) {
-        m_at.assign(std::size_t(m_layout.width) * m_layout.height, kNone);
+        m_texelAt.assign(std::size_t(m_layout.width) * m_layout.height, kNone);
         for (std::uint32_t i = 0; i < texels.size(); ++i)
-            m_at[texels[i].texel] = i;
+            m_texelAt[texels[i].texel] = i;
     }
 
     std::vector<std::uint32_t> run(const Progress& progress);
@@ -76,8 +76,8 @@ private:
     const std::vector<AtlasTexel>& m_texels;
     const std::vector<TexelSide>& m_side;
     const std::vector<PlacedTriangle>& m_placed;
-    std::vector<std::uint32_t> m_at;     ///< per place: into m_texels
-    std::vector<std::uint32_t> m_quadAt; ///< per place: into m_quads
+    std::vector<std::uint32_t> m_texelAt; ///< per place: into m_texels
+    std::vector<std::uint32_t> m_quadAt;  ///< per place: into m_quads
     std::vector<Quad> m_quads;
     std::vector<glm::ivec2> m_nearest = nearestCells();
 };
@@ -94,7 +94,7 @@ std::uint32_t Snapper::neighbour(std::uint32_t texel, std::uint32_t dx, std::uin
     const std::uint32_t x = t.texel % m_layout.width + dx, y = t.texel / m_layout.width + dy;
     if (x >= m_layout.width || y >= m_layout.height)
         return kNone;
-    const std::uint32_t other = m_at[std::size_t(y) * m_layout.width + x];
+    const std::uint32_t other = m_texelAt[std::size_t(y) * m_layout.width + x];
     return other != kNone && alike(texel, other) ? other : kNone;
 }
 
@@ -121,7 +121,7 @@ void Snapper::findQuads(const Progress& progress) {
                 down[i] = link(std::uint32_t(i), 0, 1);
             }
     });
-    m_quadAt.assign(m_at.size(), kNone);
+    m_quadAt.assign(m_texelAt.size(), kNone);
     for (std::uint32_t i = 0; i < m_texels.size(); ++i) {
         if (m_side[i].chart == kMixedCharts)
             continue;
@@ -132,7 +132,7 @@ void Snapper::findQuads(const Progress& progress) {
         };
         if (set(right, i) || set(down, i) || set(right, quad.texel[2]) ||
             set(down, quad.texel[1])) {
-            m_quadAt[quad.at] = std::uint32_t(m_quads.size());
+            m_quadAt[quad.place] = std::uint32_t(m_quads.size());
             m_quads.push_back(quad);
         }
     }
@@ -155,9 +155,9 @@ void Snapper::addTriangle(const PlacedTriangle& placed) {
          float(y) + 0.5f <= upper.y && y < end.y; ++y)
         for (int x = std::max(int(std::ceil(lower.x - 0.5f)), first.x);
              float(x) + 0.5f <= upper.x && x < end.x; ++x) {
-            const glm::ivec2 at(x / kCells, y / kCells);
+            const glm::ivec2 position(x / kCells, y / kCells);
             const std::uint32_t quad =
-                m_quadAt[std::size_t(at.y) * m_layout.width + std::size_t(at.x)];
+                m_quadAt[std::size_t(position.y) * m_layout.width + std::size_t(position.x)];
             const std::uint32_t cell = std::uint32_t((y % kCells) * kCells + x % kCells);
             if (quad == kNone || (m_quads[quad].found >> cell & 1))
                 continue;
@@ -209,15 +209,15 @@ std::uint32_t chooseSnap(const SideFinder& sides, const std::vector<TexelSide>& 
     sides.rays += rays;
     usable |= seen;
     std::uint32_t best = kSnaps;
-    float most = 0;
+    float maxSum = 0;
     for (std::uint32_t snap = 0; snap < kSnaps; ++snap) {
         if (kReads[snap] & ~usable)
             continue;
         float sum = 0;
         for (std::uint32_t k = 0; k < 4; ++k)
             sum += (kReads[snap] & seen) >> k & 1 ? weight[k] : 0;
-        if (sum > most) {
-            most = sum;
+        if (sum > maxSum) {
+            maxSum = sum;
             best = snap;
         }
     }
@@ -244,22 +244,23 @@ CellSnaps Snapper::snapsOf(const Quad& quad) const {
     constexpr int kLast = kCells - 1;
     const auto evaluated = [](int i) { return i % 2 == 0 || i == kLast; };
     CellSnaps snap;
-    const auto at = [&](int x, int y) -> std::uint32_t& {
+    const auto cellSnap = [&](int x, int y) -> std::uint32_t& {
         return snap[std::size_t(y * kCells + x)];
     };
     for (int y = 0; y < kCells; ++y)
         for (int x = 0; x < kCells; ++x)
             if (evaluated(x) && evaluated(y))
-                at(x, y) = snapAt(quad, y * kCells + x);
+                cellSnap(x, y) = snapAt(quad, y * kCells + x);
     for (int y = 0; y < kCells; ++y)
         for (int x = 0; x < kCells; ++x) {
             if (evaluated(x) && evaluated(y))
                 continue;
             const int dx = evaluated(x) ? 0 : 1, dy = evaluated(y) ? 0 : 1;
-            const std::uint32_t first = at(x - dx, y - dy);
-            const bool alike = first < kSnaps && at(x + dx, y - dy) == first &&
-                               at(x - dx, y + dy) == first && at(x + dx, y + dy) == first;
-            at(x, y) = alike ? first : snapAt(quad, y * kCells + x);
+            const std::uint32_t first = cellSnap(x - dx, y - dy);
+            const bool alike = first < kSnaps && cellSnap(x + dx, y - dy) == first &&
+                               cellSnap(x - dx, y + dy) == first &&
+                               cellSnap(x + dx, y + dy) == first;
+            cellSnap(x, y) = alike ? first : snapAt(quad, y * kCells + x);
         }
     return snap;
 }
@@ -269,12 +270,14 @@ CellSnaps Snapper::snapsOf(const Quad& quad) const {
 std::uint32_t Snapper::snapLike(const std::vector<CellSnaps>& known, const Quad& quad,
                                 glm::ivec2 cell) const {
     const glm::ivec2 beside = (cell + kCells) / kCells - 1,
-                     at = glm::ivec2(int(quad.at % m_layout.width), int(quad.at / m_layout.width)) +
-                          beside;
-    if (at.x < 0 || at.y < 0 || at.x >= int(m_layout.width) || at.y >= int(m_layout.height))
+                     position = glm::ivec2(int(quad.place % m_layout.width),
+                                           int(quad.place / m_layout.width)) +
+                                beside;
+    if (position.x < 0 || position.y < 0 || position.x >= int(m_layout.width) ||
+        position.y >= int(m_layout.height))
         return kSnaps;
-    const std::size_t place = std::size_t(at.y) * m_layout.width + std::size_t(at.x);
-    if (m_at[place] == kNone || !alike(m_at[place], quad.texel[0]))
+    const std::size_t place = std::size_t(position.y) * m_layout.width + std::size_t(position.x);
+    if (m_texelAt[place] == kNone || !alike(m_texelAt[place], quad.texel[0]))
         return kSnaps;
     std::uint32_t reads = kReads[0];
     if (const std::uint32_t there = m_quadAt[place]; there != kNone) {
@@ -289,21 +292,21 @@ std::uint32_t Snapper::snapLike(const std::vector<CellSnaps>& known, const Quad&
         const glm::ivec2 corner = beside + glm::ivec2(k % 2, k / 2);
         if (!(reads >> k & 1) || glm::clamp(corner, 0, 1) != corner)
             continue;
-        const int own = corner.y * 2 + corner.x;
-        const std::uint32_t texel = quad.texel[std::size_t(own)];
+        const int index = corner.y * 2 + corner.x;
+        const std::uint32_t texel = quad.texel[std::size_t(index)];
         if (texel != kNone && m_side[texel].open)
-            shared |= 1U << own;
+            shared |= 1U << index;
     }
     return std::uint32_t(std::ranges::find(kReads, shared) - kReads.begin());
 }
 
 /// Maximum clearance of the texels that a snap reads [m].
 float Snapper::clearance(const Quad& quad, std::uint32_t snap) const {
-    float most = 0;
+    float maximum = 0;
     for (std::uint32_t k = 0; k < 4; ++k)
         if (kReads[snap] >> k & 1 && quad.texel[k] != kNone)
-            most = std::max(most, m_side[quad.texel[k]].clearance);
-    return most;
+            maximum = std::max(maximum, m_side[quad.texel[k]].clearance);
+    return maximum;
 }
 
 /// The snap of a cell whose centre lies in a pocket narrower than half a texel, such as that behind
@@ -314,17 +317,17 @@ std::uint32_t Snapper::outwards(const std::vector<CellSnaps>& known, const Quad&
                                 glm::ivec2 cell, std::uint32_t snap) const {
     constexpr float kNarrow = 0.5f; // [texels]
     constexpr float kOpener = 8;    // times
-    const float own = clearance(quad, snap);
-    if (own > kNarrow * m_texels[quad.texel[0]].width)
+    const float current = clearance(quad, snap);
+    if (current > kNarrow * m_texels[quad.texel[0]].width)
         return snap;
-    float most = kOpener * own;
+    float best = kOpener * current;
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
             const std::uint32_t other = snapLike(known, quad, cell + glm::ivec2(x, y));
             if (other >= kSnaps || other == snap)
                 continue;
-            if (const float c = clearance(quad, other); c > most) {
-                most = c;
+            if (const float c = clearance(quad, other); c > best) {
+                best = c;
                 snap = other;
             }
         }
@@ -366,13 +369,13 @@ std::vector<std::uint32_t> Snapper::run(const Progress& progress) {
     if (!forQuads([&](std::size_t q) { known[q] = snapsOf(m_quads[q]); }) ||
         !forQuads([&](std::size_t q) { rows[q] = rowsOf(known, m_quads[q]); }))
         return {};
-    std::vector<std::uint32_t> result(m_at.size());
+    std::vector<std::uint32_t> result(m_texelAt.size());
     for (std::size_t q = 0; q < m_quads.size(); ++q)
         if (rows[q] != std::array<std::uint32_t, kSnapCells>{}) {
-            result[m_quads[q].at] = std::uint32_t(result.size());
+            result[m_quads[q].place] = std::uint32_t(result.size());
             result.insert(result.end(), rows[q].begin(), rows[q].end());
         }
-    return result.size() > m_at.size() ? result : std::vector<std::uint32_t>();
+    return result.size() > m_texelAt.size() ? result : std::vector<std::uint32_t>();
 }
 
 } // namespace
