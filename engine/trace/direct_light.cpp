@@ -14,21 +14,21 @@ static glm::vec3 limited(glm::vec3 irradiance) {
     return glm::min(irradiance, glm::vec3(kMaxIrradiance));
 }
 
-glm::vec3 shadowedLight(const TraceScene& trace, const Light& light, const LitPoint& at,
+glm::vec3 shadowedLight(const TraceScene& trace, const Light& light, const LitPoint& point,
                         std::uint32_t points, std::uint64_t& rays) {
     if (light.kind == LightKind::Rectangle) {
         if (!shines(light))
             return glm::vec3(0);
-        const float e = shadowedIrradiance(trace, lightRectangle(light), at.position, at.normal,
-                                           points, at.shift, rays);
+        const float e = shadowedIrradiance(trace, lightRectangle(light), point.position,
+                                           point.normal, points, point.shift, rays);
         return limited(light.color * light.strength * e);
     }
-    const LightSample sample = sampleLight(light, at.position);
-    const float cosine = glm::dot(at.normal, sample.toLight);
+    const LightSample sample = sampleLight(light, point.position);
+    const float cosine = glm::dot(point.normal, sample.toLight);
     if (!(cosine > 0) || sample.irradiance == glm::vec3(0))
         return glm::vec3(0);
     ++rays;
-    const Ray shadow{at.position, sample.toLight, 0, sample.distance};
+    const Ray shadow{point.position, sample.toLight, 0, sample.distance};
     return trace.occluded(shadow) ? glm::vec3(0) : limited(sample.irradiance * cosine);
 }
 

@@ -17,7 +17,7 @@ struct LitPoint {
 /// Irradiance [W m^-2] from one light, with shadow. Shadows of directional, point and spot lights
 /// are hard; those of a rectangle are sampled by `points` rays. Adds the number of shadow rays to
 /// `rays`.
-glm::vec3 shadowedLight(const TraceScene& trace, const Light& light, const LitPoint& at,
+glm::vec3 shadowedLight(const TraceScene& trace, const Light& light, const LitPoint& point,
                         std::uint32_t points, std::uint64_t& rays);
 
 } // namespace limn

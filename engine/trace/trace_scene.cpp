@@ -136,7 +136,7 @@ struct TraceScene::Impl {
     RTCRayHit intersect(const Ray& ray, TraceMask mask) const;
     /// First corner of the triangle that was hit, and its edges to the others, in the mesh's space.
     struct Corner {
-        glm::vec3 at, toSecond, toThird;
+        glm::vec3 position, toSecond, toThird;
     };
     Corner cornerOf(const RTCRayHit& rh) const;
     /// Normal of that triangle in the world, not of unit length.
@@ -161,8 +161,8 @@ static float magnitudeOf(const Scene& scene) {
     const bool anyStatic = std::any_of(scene.instances.begin(), scene.instances.end(),
                                        [](const Instance& i) { return !i.dynamic; });
     const Bounds b = anyStatic ? staticBounds(scene) : scene.bounds;
-    const glm::vec3 most = glm::max(glm::abs(b.lower), glm::abs(b.upper));
-    const float largest = std::max({most.x, most.y, most.z});
+    const glm::vec3 magnitudes = glm::max(glm::abs(b.lower), glm::abs(b.upper));
+    const float largest = std::max({magnitudes.x, magnitudes.y, magnitudes.z});
     // In powers of two, so that an object that moves rarely affects the rays of the rest of the
     // scene; of the static scene only, so that a bake never depends on a dynamic object.
     return std::isfinite(largest) && largest > 0 ? std::exp2(std::ceil(std::log2(largest))) : 0;
@@ -449,7 +449,7 @@ Hit TraceScene::closestHit(const Ray& ray, TraceMask mask) const {
     const Impl::Corner corner = m_impl->cornerOf(rh);
     hit.position =
         glm::vec3(m_impl->frames[hit.instance].toWorld *
-                  glm::vec4(corner.at + hit.u * corner.toSecond + hit.v * corner.toThird, 1));
+                  glm::vec4(corner.position + hit.u * corner.toSecond + hit.v * corner.toThird, 1));
     const glm::vec3 n = m_impl->normalOf(rh, corner);
     const float length = glm::length(n);
     hit.geometricNormal = length > 0 ? n / length : -ray.direction;
