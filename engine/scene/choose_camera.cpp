@@ -33,14 +33,14 @@ static void addWalls(const Scene& scene, const Instance& instance, std::array<do
         const glm::vec3 p = mesh.positions[a], q = mesh.positions[b], r = mesh.positions[c];
         const glm::vec3 twice = instance.normalToWorld * glm::cross(q - p, r - p);
         const glm::vec3 centre = instance.toWorld * glm::vec4((p + q + r) / 3.f, 1);
-        const glm::vec3 at = (centre - scene.bounds.lower) / size;
+        const glm::vec3 position = (centre - scene.bounds.lower) / size;
         for (const int axis : {0, 2}) {
             if (std::abs(twice[axis]) < kUpright * glm::length(twice))
                 continue;
             const std::size_t side = axis == 0 ? 0 : 2;
-            if (at[axis] < kNear && (twice[axis] > 0 || bothFaces))
+            if (position[axis] < kNear && (twice[axis] > 0 || bothFaces))
                 area[side] += std::abs(double(twice[axis])) / 2;
-            if (at[axis] > 1 - kNear && (twice[axis] < 0 || bothFaces))
+            if (position[axis] > 1 - kNear && (twice[axis] < 0 || bothFaces))
                 area[side + 1] += std::abs(double(twice[axis])) / 2;
         }
     }

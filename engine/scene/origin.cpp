@@ -45,12 +45,12 @@ static Box staticBox(const Document& document, std::span<const Mesh> meshes) {
         const Node* node = std::get_if<Node>(&object);
         if (!node || node->meshes.empty())
             continue;
-        const Placement at = placements.of(id);
-        if (!at.visible || at.dynamic)
+        const Placement placement = placements.of(id);
+        if (!placement.visible || placement.dynamic)
             continue;
         for (const std::uint32_t mesh : node->meshes)
             if (mesh < meshes.size() && !isEmpty(bounds[mesh]))
-                extend(box, at.toWorld, bounds[mesh]);
+                extend(box, placement.toWorld, bounds[mesh]);
     }
     return box;
 }
@@ -67,10 +67,11 @@ glm::dvec3 originOf(const Document& document, std::span<const Mesh> meshes) {
 }
 
 std::string placeText(const glm::dvec3& origin, glm::vec3 p) {
-    const glm::dvec3 at = toFile(origin, p);
+    const glm::dvec3 position = toFile(origin, p);
     // Three significant digits distinguish positions only near the origin.
-    return origin == glm::dvec3(0) ? fmt::format("At {:.3g}, {:.3g}, {:.3g} m", at.x, at.y, at.z)
-                                   : fmt::format("At {:.3f}, {:.3f}, {:.3f} m", at.x, at.y, at.z);
+    return origin == glm::dvec3(0)
+               ? fmt::format("At {:.3g}, {:.3g}, {:.3g} m", position.x, position.y, position.z)
+               : fmt::format("At {:.3f}, {:.3f}, {:.3f} m", position.x, position.y, position.z);
 }
 
 } // namespace limn

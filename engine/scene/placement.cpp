@@ -22,12 +22,12 @@ const Node* Placements::node(ObjectId id) const {
 /// Iterative, because a chain of nodes may be very long.
 Placement Placements::of(ObjectId id) {
     std::vector<ObjectId> chain;
-    Placement at;
-    at.toWorld[3] = glm::dvec4(-m_origin, 1);
+    Placement placement;
+    placement.toWorld[3] = glm::dvec4(-m_origin, 1);
     for (; id != 0; id = node(id)->parent) {
         const auto known = m_known.find(id);
         if (known != m_known.end()) {
-            at = known->second;
+            placement = known->second;
             break;
         }
         if (!node(id) || chain.size() > m_document.objects.size())
@@ -36,15 +36,16 @@ Placement Placements::of(ObjectId id) {
     }
     for (auto child = chain.rbegin(); child != chain.rend(); ++child) {
         const Node& n = *node(*child);
-        at.toWorld = m_inDouble ? at.toWorld * preciseMatrix(n.transform)
-                                : glm::dmat4(glm::mat4(at.toWorld) * matrix(n.transform));
-        at.visible = at.visible && n.visible;
-        at.dynamic = at.dynamic || n.dynamic;
-        at.texelDensity =
-            std::clamp(at.texelDensity * n.texelDensity, kMinTexelDensity, kMaxTexelDensity);
-        m_known.emplace(*child, at);
+        placement.toWorld = m_inDouble
+                                ? placement.toWorld * preciseMatrix(n.transform)
+                                : glm::dmat4(glm::mat4(placement.toWorld) * matrix(n.transform));
+        placement.visible = placement.visible && n.visible;
+        placement.dynamic = placement.dynamic || n.dynamic;
+        placement.texelDensity =
+            std::clamp(placement.texelDensity * n.texelDensity, kMinTexelDensity, kMaxTexelDensity);
+        m_known.emplace(*child, placement);
     }
-    return at;
+    return placement;
 }
 
 } // namespace limn

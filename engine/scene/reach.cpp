@@ -16,7 +16,7 @@ bool withinReach(glm::vec3 p) {
 }
 
 std::string reachDefect(const Scene& scene) {
-    const std::string most = fmt::format("beyond {:g} m of the origin", kMaxCoordinate);
+    const std::string beyondLimit = fmt::format("beyond {:g} m of the origin", kMaxCoordinate);
     const auto placed = [&](glm::vec3 p) {
         return withinReach(glm::vec3(toFile(scene.origin, p)));
     };
@@ -25,15 +25,15 @@ std::string reachDefect(const Scene& scene) {
             if (!(c < 3 ? withinReach(glm::vec3(instance.toWorld[c]))
                         : placed(glm::vec3(instance.toWorld[c]))))
                 return fmt::format("an object of the mesh '{}' lies or extends {}",
-                                   scene.meshOf(instance).name, most);
+                                   scene.meshOf(instance).name, beyondLimit);
     if (!placed(scene.bounds.lower) || !placed(scene.bounds.upper))
-        return "the scene extends " + most;
+        return "the scene extends " + beyondLimit;
     for (const Light& light : scene.lights)
         if (light.kind != LightKind::Directional && !placed(light.position))
-            return fmt::format("the light '{}' lies {}", light.name, most);
+            return fmt::format("the light '{}' lies {}", light.name, beyondLimit);
     for (const Camera& camera : scene.cameras)
         if (!placed(camera.eye) || !placed(camera.target))
-            return fmt::format("the camera '{}' or its target lies {}", camera.name, most);
+            return fmt::format("the camera '{}' or its target lies {}", camera.name, beyondLimit);
     return {};
 }
 

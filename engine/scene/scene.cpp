@@ -31,7 +31,7 @@ static MaterialIndices materialIndices(const Document& document) {
     return indices;
 }
 
-static void addInstances(Scene& scene, const Node& node, ObjectId id, const Placement& at,
+static void addInstances(Scene& scene, const Node& node, ObjectId id, const Placement& placement,
                          const MaterialIndices& materials) {
     for (std::size_t i = 0; i < node.meshes.size(); ++i) {
         const std::uint32_t mesh = node.meshes[i];
@@ -44,9 +44,9 @@ static void addInstances(Scene& scene, const Node& node, ObjectId id, const Plac
         instance.material =
             assigned != materials.end() ? assigned->second : scene.assets->meshes[mesh].material;
         instance.node = id;
-        instance.dynamic = at.dynamic;
-        instance.texelDensity = at.texelDensity;
-        instance.toWorld = glm::mat4(at.toWorld);
+        instance.dynamic = placement.dynamic;
+        instance.texelDensity = placement.texelDensity;
+        instance.toWorld = glm::mat4(placement.toWorld);
         instance.normalToWorld = normalMatrix(instance.toWorld);
         scene.instances.push_back(instance);
     }
@@ -113,8 +113,8 @@ Scene flatten(const Document& document, std::shared_ptr<const Assets> assets, do
         if (const Node* node = std::get_if<Node>(&object)) {
             if (node->meshes.empty())
                 continue;
-            if (const Placement at = placements.of(id); at.visible)
-                addInstances(scene, *node, id, at, materials);
+            if (const Placement placement = placements.of(id); placement.visible)
+                addInstances(scene, *node, id, placement, materials);
         } else if (const Material* material = std::get_if<Material>(&object)) {
             scene.materials.push_back(*material);
         } else if (const Light* light = std::get_if<Light>(&object)) {

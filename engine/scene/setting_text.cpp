@@ -67,10 +67,10 @@ std::string readValue(const std::string& text, bool& value) {
 }
 
 std::string readChoice(const std::string& text, std::size_t& value, const SettingChoices& choices) {
-    const auto at = std::ranges::find(choices.names, text);
-    if (at == choices.names.end())
+    const auto found = std::ranges::find(choices.names, text);
+    if (found == choices.names.end())
         return fmt::format("\"{}\" is not one of {}", text, fmt::join(choices.names, ", "));
-    value = std::size_t(at - choices.names.begin());
+    value = std::size_t(found - choices.names.begin());
     return {};
 }
 

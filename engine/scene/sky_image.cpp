@@ -53,11 +53,11 @@ std::vector<glm::vec3> skyCellRadiance(const SkyBands& bands, std::uint32_t sect
         const double first = across(double(s) / sectors - 0.5, rotation) * bands.columns;
         for (std::uint32_t b = 0; b < bands.bands; ++b) {
             glm::dvec3 sum(0);
-            for (double at = first; at < first + width;) {
-                const double next = std::min(std::floor(at) + 1, first + width);
-                const auto column = std::size_t(at) % bands.columns;
-                sum += (next - at) * bands.mean[std::size_t(b) * bands.columns + column];
-                at = next;
+            for (double position = first; position < first + width;) {
+                const double next = std::min(std::floor(position) + 1, first + width);
+                const auto column = std::size_t(position) % bands.columns;
+                sum += (next - position) * bands.mean[std::size_t(b) * bands.columns + column];
+                position = next;
             }
             cells[std::size_t(b) * sectors + s] = glm::vec3(sum / width);
         }

@@ -62,14 +62,14 @@ private:
     void addTriangle(const Scene& scene, const Instance& instance,
                      const std::array<std::uint32_t, 3>& corners,
                      std::vector<LightCut>& cuts) const {
-        const std::vector<glm::vec3>& at = scene.meshOf(instance).positions;
+        const std::vector<glm::vec3>& positions = scene.meshOf(instance).positions;
         std::array<glm::vec3, 3> ends;
         std::size_t count = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t i = corners[k], j = corners[(k + 1) % 3];
             if ((m_height[i] < 0) != (m_height[j] < 0))
-                ends[count++] =
-                    at[i] + (at[j] - at[i]) * (m_height[i] / (m_height[i] - m_height[j]));
+                ends[count++] = positions[i] + (positions[j] - positions[i]) *
+                                                   (m_height[i] / (m_height[i] - m_height[j]));
         }
         if (count != 2)
             return;
@@ -80,8 +80,8 @@ private:
         if (!clipToSquare(cut.a, cut.b))
             return;
         const glm::vec3 normal =
-            instance.normalToWorld *
-            glm::cross(at[corners[1]] - at[corners[0]], at[corners[2]] - at[corners[0]]);
+            instance.normalToWorld * glm::cross(positions[corners[1]] - positions[corners[0]],
+                                                positions[corners[2]] - positions[corners[0]]);
         cut.front = {glm::dot(normal, m_r.halfWidth), glm::dot(normal, m_r.halfHeight)};
         cut.twoSided = scene.materialOf(instance).doubleSided;
         cuts.push_back(cut);

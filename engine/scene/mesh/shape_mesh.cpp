@@ -28,9 +28,9 @@ static void addSheet(Mesh& mesh, std::uint32_t nu, std::uint32_t nv,
     for (std::uint32_t j = 0; j <= nv; ++j)
         for (std::uint32_t i = 0; i <= nu; ++i) {
             const float u = float(i) / float(nu), v = float(j) / float(nv);
-            const Vertex at = vertex(u, v);
-            mesh.positions.push_back(at.position);
-            mesh.normals.push_back(at.normal);
+            const Vertex point = vertex(u, v);
+            mesh.positions.push_back(point.position);
+            mesh.normals.push_back(point.normal);
             mesh.uv0.emplace_back(u, 1 - v);
         }
     const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {

@@ -7,8 +7,8 @@ namespace limn {
 
 std::uint32_t frameAt(const Flipbook& flipbook, double seconds) {
     const double frames = double(flipbook.columns) * flipbook.rows;
-    const double at = std::floor(seconds * double(flipbook.framesPerSecond));
-    return std::isfinite(at) ? std::uint32_t(at - frames * std::floor(at / frames)) : 0;
+    const double frame = std::floor(seconds * double(flipbook.framesPerSecond));
+    return std::isfinite(frame) ? std::uint32_t(frame - frames * std::floor(frame / frames)) : 0;
 }
 
 TextureRef emissiveTextureAt(const Material& material, double seconds) {

@@ -66,8 +66,8 @@ Losses findLosses() {
 /// channel, relative to the incoming light.
 float reflectionLoss(const Gloss& gloss, int bands) {
     static const Losses losses = findLosses();
-    const float at = std::clamp(gloss.roughness, 0.f, 1.f) * float(kRoughnessSteps);
-    const int base = std::min(int(at), kRoughnessSteps - 1);
+    const float position = std::clamp(gloss.roughness, 0.f, 1.f) * float(kRoughnessSteps);
+    const int base = std::min(int(position), kRoughnessSteps - 1);
     float square = 0;
     for (int k = 0; k < kViews; ++k) {
         const auto lossAt = [&](int row) {
@@ -75,49 +75,49 @@ float reflectionLoss(const Gloss& gloss, int bands) {
         };
         const glm::vec3 share = specularAlbedo(gloss, viewCosine(k));
         const float lost = std::max({share.x, share.y, share.z}) *
-                           glm::mix(lossAt(base), lossAt(base + 1), at - float(base));
+                           glm::mix(lossAt(base), lossAt(base + 1), position - float(base));
         square += lost * lost / float(kViews);
     }
     return std::sqrt(square);
 }
 
-int bandsOf(const Gloss& gloss, int most) {
-    int bands = std::min(kIrradianceBands, most);
-    while (bands < most && reflectionLoss(gloss, bands) > kReflectionLoss)
+int bandsOf(const Gloss& gloss, int maxBands) {
+    int bands = std::min(kIrradianceBands, maxBands);
+    while (bands < maxBands && reflectionLoss(gloss, bands) > kReflectionLoss)
         ++bands;
     return bands;
 }
 
 } // namespace
 
-int receiverBands(const Assets& assets, const Material& m, int most) {
+int receiverBands(const Assets& assets, const Material& m, int maxBands) {
     const auto bandsAt = [&](float roughness, float metallic) {
         const float metal = m.metallic * metallic;
         return bandsOf(
             {glm::mix(glm::vec3(0.04f), glm::vec3(m.baseColor), metal), m.roughness * roughness},
-            most);
+            maxBands);
     };
     const std::int32_t image = m.metallicRoughnessTexture.image;
     if (image < 0 || std::size_t(image) >= assets.images.size() ||
         assets.images[std::size_t(image)].rgba.empty())
         return bandsAt(1, 1);
     const TexelCounts counts = countTexels(assets.images[std::size_t(image)]);
-    int bands = std::min(kIrradianceBands, most);
-    for (std::size_t k = 0; k < counts.count.size() && bands < most; ++k)
+    int bands = std::min(kIrradianceBands, maxBands);
+    for (std::size_t k = 0; k < counts.count.size() && bands < maxBands; ++k)
         if (counts.count[k] * 100 >= counts.all)
             bands = std::max(
                 bands, bandsAt(float(k / kSteps) / (kSteps - 1), float(k % kSteps) / (kSteps - 1)));
     return bands;
 }
 
-int receiverBands(const Scene& scene, int most) {
+int receiverBands(const Scene& scene, int maxBands) {
     std::vector<bool> used(scene.materials.size(), false);
     for (const Instance& instance : scene.instances)
         used[instance.material] = true;
-    int bands = std::min(kIrradianceBands, most);
-    for (std::size_t i = 0; i < used.size() && bands < most; ++i)
+    int bands = std::min(kIrradianceBands, maxBands);
+    for (std::size_t i = 0; i < used.size() && bands < maxBands; ++i)
         if (used[i])
-            bands = std::max(bands, receiverBands(*scene.assets, scene.materials[i], most));
+            bands = std::max(bands, receiverBands(*scene.assets, scene.materials[i], maxBands));
     return bands;
 }
 

@@ -95,9 +95,9 @@ std::span<const glm::vec4> reflectionTable() {
 ReflectionLobe reflectionLobe(float roughness, float NoV) {
     constexpr std::size_t n = kReflectionNodes;
     const std::span<const glm::vec4> table = reflectionTable();
-    const auto at =
+    const auto position =
         glm::clamp(glm::vec2(std::sqrt(std::max(NoV, 0.f)), roughness), 0.f, 1.f) * float(n - 1);
-    const glm::vec2 base = glm::min(glm::floor(at), float(n - 2)), f = at - base;
+    const glm::vec2 base = glm::min(glm::floor(position), float(n - 2)), f = position - base;
     const std::size_t first = std::size_t(base.y) * n + std::size_t(base.x);
     const auto read = [&](std::size_t layer) {
         const glm::vec4* node = &table[layer * n * n + first];

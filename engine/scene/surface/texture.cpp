@@ -66,8 +66,8 @@ static glm::vec4 bilinear(glm::uvec2 size, const TextureRef& texture, glm::vec2 
                           const Fetch& fetchTexel) {
     // Far outside [0, 1], floats cannot distinguish texels anyway; the clamp keeps the conversion
     // to integers defined.
-    const glm::vec2 at = glm::clamp(uv * glm::vec2(size), -1e12f, 1e12f);
-    const glm::vec2 corner = glm::floor(at - 0.5f), f = at - 0.5f - corner;
+    const glm::vec2 position = glm::clamp(uv * glm::vec2(size), -1e12f, 1e12f);
+    const glm::vec2 corner = glm::floor(position - 0.5f), f = position - 0.5f - corner;
     const auto i = std::int64_t(corner.x), j = std::int64_t(corner.y);
     const std::uint32_t x0 = wrapTexel(i, size.x, texture.wrapU);
     const std::uint32_t x1 = wrapTexel(i + 1, size.x, texture.wrapU);
@@ -92,9 +92,9 @@ glm::vec4 sampleTexture(const Assets& assets, const TextureRef& texture, glm::ve
     uv = transformUv(texture, uv);
     const glm::uvec2 size(image->width, image->height);
     if (texture.nearest) {
-        const glm::vec2 at = glm::floor(glm::clamp(uv * glm::vec2(size), -1e12f, 1e12f));
-        return fetch(*image, wrapTexel(std::int64_t(at.x), size.x, texture.wrapU),
-                     wrapTexel(std::int64_t(at.y), size.y, texture.wrapV), srgb);
+        const glm::vec2 texel = glm::floor(glm::clamp(uv * glm::vec2(size), -1e12f, 1e12f));
+        return fetch(*image, wrapTexel(std::int64_t(texel.x), size.x, texture.wrapU),
+                     wrapTexel(std::int64_t(texel.y), size.y, texture.wrapV), srgb);
     }
     return bilinear(size, texture, uv,
                     [&](std::uint32_t x, std::uint32_t y) { return fetch(*image, x, y, srgb); });
@@ -203,10 +203,10 @@ glm::vec4 sampleTextureFootprint(const Assets& assets, const TextureRef& texture
     const MipChain& mips = assets.mips.of(assets.images, std::size_t(texture.image), kind);
     const float level = std::min(0.5f * std::log2(texels), float(mips.levels.size()));
     const auto lower = std::size_t(level);
-    const glm::vec2 at = transformUv(texture, uv);
-    glm::vec4 mean = sampleLevel(*image, mips, lower, texture, at, kind);
+    const glm::vec2 transformed = transformUv(texture, uv);
+    glm::vec4 mean = sampleLevel(*image, mips, lower, texture, transformed, kind);
     if (const float f = level - float(lower); f > 0)
-        mean = glm::mix(mean, sampleLevel(*image, mips, lower + 1, texture, at, kind), f);
+        mean = glm::mix(mean, sampleLevel(*image, mips, lower + 1, texture, transformed, kind), f);
     if (kind == TexelKind::CutoutColor && mean.w > 0)
         mean = {glm::vec3(mean) / mean.w, mean.w};
     return mean;
