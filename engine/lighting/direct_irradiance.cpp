@@ -74,15 +74,15 @@ public:
         : m_trace(trace), m_light(light), m_each(each), m_share(share),
           m_rays(trace, TraceMask::All) {}
 
-    /// Adds position `at` with its normal to the mean of its point.
-    void add(std::size_t at, glm::vec3 p, glm::vec3 n) {
+    /// Adds position `index`, and the normal there, to the mean of its point.
+    void add(std::size_t index, glm::vec3 p, glm::vec3 n) {
         const LightSample sample = sampleLight(m_light, p);
         const float cosTheta = glm::dot(n, sample.toLight);
         if (!(cosTheta > 0) || !(sample.irradiance.x > 0))
             return;
         m_rays.add(
             {m_trace.clearOf(p, n), sample.toLight, 0, sample.distance - m_trace.epsilonAt(p)},
-            {at / m_each, sample.irradiance.x * cosTheta / float(m_each)}, open());
+            {index / m_each, sample.irradiance.x * cosTheta / float(m_each)}, open());
     }
 
     /// Traces the rays that wait.
@@ -113,16 +113,17 @@ std::uint64_t traceLight(std::span<const glm::vec3> positions, std::span<const g
     const auto lightBlock = [&](std::size_t begin, std::size_t end) {
         if (rectangles.empty()) {
             PointShares shares(trace, out.light, each, out.share);
-            for (std::size_t at = begin * each; at < end * each; ++at)
-                shares.add(at, positions[at], normals[at]);
+            for (std::size_t index = begin * each; index < end * each; ++index)
+                shares.add(index, positions[index], normals[index]);
             shares.flush();
             return shares.traced();
         }
         std::uint64_t mine = 0;
-        for (std::size_t at = begin * each; at < end * each; ++at)
-            out.share[at / each] += rectangleShare(trace, rectangles, positions[at], normals[at],
-                                                   std::uint32_t(at), samples, mine) /
-                                    float(each);
+        for (std::size_t index = begin * each; index < end * each; ++index)
+            out.share[index / each] +=
+                rectangleShare(trace, rectangles, positions[index], normals[index],
+                               std::uint32_t(index), samples, mine) /
+                float(each);
         return mine;
     };
     parallelRanges((points + kBlock - 1) / kBlock, 1, [&](std::size_t begin, std::size_t end) {

@@ -60,16 +60,16 @@ std::string objectLabel(const Scene& scene, std::uint32_t instance) {
     return material.empty() || material == name ? name : fmt::format("{} ({})", name, material);
 }
 
-std::vector<LightRow> strongest(std::vector<LightRow> found, std::size_t most) {
+std::vector<LightRow> strongest(std::vector<LightRow> found, std::size_t maxRows) {
     std::ranges::stable_sort(found, isStronger, &LightRow::value);
-    if (found.size() <= most + 1) // a single one that is left is listed
+    if (found.size() <= maxRows + 1) // a single one that is left is listed
         return found;
     LightRow others{.kind = LightRowKind::Others,
-                    .label = fmt::format("{} more", found.size() - most),
+                    .label = fmt::format("{} more", found.size() - maxRows),
                     .parent = found[0].parent};
-    for (std::size_t k = most; k < found.size(); ++k)
+    for (std::size_t k = maxRows; k < found.size(); ++k)
         others.value += found[k].value;
-    found.resize(most);
+    found.resize(maxRows);
     found.push_back(std::move(others));
     return found;
 }

@@ -67,8 +67,8 @@ void addRows(std::vector<LightRow>& rows, const std::vector<LightRow>& more, std
 /// Name of an instance in a row: of its mesh, with that of its material.
 std::string objectLabel(const Scene& scene, std::uint32_t instance);
 
-/// The `most` strongest of `found`, which have the same parent, and then one row for the others.
-std::vector<LightRow> strongest(std::vector<LightRow> found, std::size_t most);
+/// The `maxRows` strongest of `found`, which have the same parent, and then one row for the others.
+std::vector<LightRow> strongest(std::vector<LightRow> found, std::size_t maxRows);
 
 /// Order by which rows are listed: the strongest first, by the sum of their colours.
 bool isStronger(glm::vec3 a, glm::vec3 b);

@@ -22,8 +22,8 @@ std::optional<LightingReport> LightingDriver::step(LightingInput input, Rest res
     if (done() || (m_converged && rest == Rest::Later))
         return {};
     const bool resting = m_converged;
-    const std::uint32_t most = input.scene.relight.maxBounces;
-    input.bounces = resting ? 0 : bouncesPerUpdate(most);
+    const std::uint32_t maxBounces = input.scene.relight.maxBounces;
+    input.bounces = resting ? 0 : bouncesPerUpdate(maxBounces);
     if (!m_everWhole || (resting && rest == Rest::All))
         input.view = nullptr;
     LightingReport report = m_lighting->update(input, progress);
@@ -32,7 +32,7 @@ std::optional<LightingReport> LightingDriver::step(LightingInput input, Rest res
     if (resting)
         return {};
     m_bounces += report.bounces;
-    m_converged = report.converged || m_bounces >= most;
+    m_converged = report.converged || m_bounces >= maxBounces;
     return report;
 }
 
