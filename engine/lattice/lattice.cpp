@@ -15,8 +15,8 @@ glm::uvec3 Lattice::at(glm::vec3 p) const {
 
 Lattice latticeOver(const Bounds& box, std::uint32_t longest) {
     const glm::vec3 extent = box.size();
-    const float most = std::max({extent.x, extent.y, extent.z});
-    Lattice lattice{.cell = most > 0 ? most / float(longest) : 1};
+    const float maxExtent = std::max({extent.x, extent.y, extent.z});
+    Lattice lattice{.cell = maxExtent > 0 ? maxExtent / float(longest) : 1};
     for (int axis = 0; axis < 3; ++axis) {
         // Rounding must not add a cell to a side of a whole number of cells.
         const auto whole = std::uint32_t(std::ceil(extent[axis] / lattice.cell - 1e-3f));
