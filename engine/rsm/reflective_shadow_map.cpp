@@ -52,8 +52,8 @@ float windowAt(const Light& light, glm::vec3 p) {
 /// What the texel sees; none where that reflects nothing. Counts the ray, if it needs one.
 std::optional<RsmTexel> castTexel(const TraceScene& trace, const Scene& scene, const Light& light,
                                   const RsmView& view, glm::uvec2 texel, std::uint32_t& rays) {
-    const glm::vec2 at = (glm::vec2(texel) + 0.5f) * (2 / float(view.size)) - 1.f;
-    const glm::vec3 across = at.x * view.right + at.y * view.up;
+    const glm::vec2 ndc = (glm::vec2(texel) + 0.5f) * (2 / float(view.size)) - 1.f;
+    const glm::vec3 across = ndc.x * view.right + ndc.y * view.up;
     Ray ray{view.origin, view.forward};
     float spread = view.texelArea(), share = 1;
     if (view.parallel) {
@@ -135,15 +135,15 @@ rsmViews(const Light& light, const Bounds& bounds, std::uint32_t size,
     return views;
 }
 
-ReflectiveShadowMap castRsm(const TraceScene& trace, const Scene& scene, const Light& of,
+ReflectiveShadowMap castRsm(const TraceScene& trace, const Scene& scene, const Light& light,
                             std::uint32_t size, const Progress& progress) {
-    const Light light = unitLight(of);
+    const Light unit = unitLight(light);
     struct Row {
         std::vector<RsmTexel> texels;
         std::uint32_t rays = 0;
     };
     const std::vector<RsmView> views =
-        rsmViews(light, scene.bounds, size,
+        rsmViews(unit, scene.bounds, size,
                  [&](glm::vec3 p, glm::vec3 normal) { return trace.clearOf(p, normal); });
     const std::size_t rowsOfView = views.empty() ? 0 : views[0].size; // all have the same size
     std::vector<Row> rows(views.size() * rowsOfView);
@@ -151,7 +151,7 @@ ReflectiveShadowMap castRsm(const TraceScene& trace, const Scene& scene, const L
         for (std::size_t r = begin; r < end; ++r) {
             const RsmView& view = views[r / rowsOfView];
             for (std::uint32_t x = 0; x < view.size; ++x)
-                if (const auto seen = castTexel(trace, scene, light, view,
+                if (const auto seen = castTexel(trace, scene, unit, view,
                                                 {x, std::uint32_t(r % rowsOfView)}, rows[r].rays))
                     rows[r].texels.push_back(*seen);
         }
