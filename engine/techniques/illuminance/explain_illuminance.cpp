@@ -77,8 +77,9 @@ struct ReadingWeights {
     glm::vec3 remainder{0};    ///< value of the bounces that were not followed
     std::uint32_t bounces = 1; ///< followed
 
-    glm::vec3 value(const std::vector<Weights>& of, std::uint32_t node, glm::vec3 light) const {
-        return passes.value([&](std::size_t p) { return of[p][node]; }, light);
+    glm::vec3 value(const std::vector<Weights>& weightsOfPass, std::uint32_t node,
+                    glm::vec3 light) const {
+        return passes.value([&](std::size_t p) { return weightsOfPass[p][node]; }, light);
     }
 };
 
@@ -229,7 +230,7 @@ struct SenderTable {
     const RelightState& state;
     const Scene& scene;
     const ReadingWeights& weights;
-    std::size_t most;
+    std::size_t maxRows;
     std::vector<LightRow> rows;
 
     /// The surfels of a cluster, or of a link to one, by object.
@@ -246,13 +247,13 @@ struct SenderTable {
         const ClusterTree& tree = state.bake.tree;
         std::vector<std::pair<std::uint32_t, float>> stack{{node, 1.f}};
         while (!stack.empty()) {
-            const auto [at, share] = stack.back();
+            const auto [current, share] = stack.back();
             stack.pop_back();
-            if (at < tree.leaves()) {
-                f(at, share);
+            if (current < tree.leaves()) {
+                f(current, share);
                 continue;
             }
-            const std::uint32_t inner = at - tree.leaves();
+            const std::uint32_t inner = current - tree.leaves();
             stack.emplace_back(tree.right[inner], share * (1 - tree.leftWeight[inner]));
             stack.emplace_back(tree.left[inner], share * tree.leftWeight[inner]);
         }
@@ -303,15 +304,15 @@ struct SenderTable {
                                .index = link.node,
                                .parent = parent,
                                .value = link.value});
-        const std::vector<LightRow> listed = strongest(std::move(found), most);
+        const std::vector<LightRow> listed = strongest(std::move(found), maxRows);
         for (std::size_t k = 0; k < listed.size(); ++k) {
-            const std::uint32_t at = addRow(rows, listed[k]);
+            const std::uint32_t clusterRow = addRow(rows, listed[k]);
             if (listed[k].kind != LightRowKind::Cluster)
                 continue;
             std::vector<LightRow> surfels;
             for (const auto& [surfel, value] : links[k].surfels)
-                surfels.push_back(surfelRow(surfel, value, at));
-            for (LightRow& row : strongest(std::move(surfels), most))
+                surfels.push_back(surfelRow(surfel, value, clusterRow));
+            for (LightRow& row : strongest(std::move(surfels), maxRows))
                 addRow(rows, std::move(row));
         }
     }
@@ -327,12 +328,12 @@ struct SenderTable {
                 row.value += link.value;
             objects.push_back(std::move(row));
         }
-        for (LightRow& row : strongest(std::move(objects), most)) {
+        for (LightRow& row : strongest(std::move(objects), maxRows)) {
             const std::uint32_t object = row.index;
             const bool listed = row.kind == LightRowKind::Surface;
-            const std::uint32_t at = addRow(rows, std::move(row));
+            const std::uint32_t objectRow = addRow(rows, std::move(row));
             if (listed)
-                addLinks(linksOf[object], at);
+                addLinks(linksOf[object], objectRow);
         }
     }
 
@@ -359,7 +360,7 @@ struct SenderTable {
         if (cells.empty())
             return;
         addRow(rows, std::move(sky));
-        for (LightRow& row : strongest(std::move(cells), most))
+        for (LightRow& row : strongest(std::move(cells), maxRows))
             addRow(rows, std::move(row));
     }
 };

@@ -12,7 +12,7 @@ namespace limn {
 /// The light of a lit bake, copied for overlays.
 class IlluminanceSnapshot : public LightSnapshot {
 public:
-    explicit IlluminanceSnapshot(LitBake of) : lit(std::move(of)) {}
+    explicit IlluminanceSnapshot(LitBake litBake) : lit(std::move(litBake)) {}
 
     const Technique& technique() const override { return kIlluminanceTechnique; }
 

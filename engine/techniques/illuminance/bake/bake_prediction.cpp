@@ -167,10 +167,10 @@ BakePrediction predictBake(const Scene& scene, bool stored) {
     BakePrediction p;
     p.caches = expectedCaches(scene);
     p.gridCaches = expectedGrid(scene);
-    if (const std::uint64_t least = minTexels(scene); least > s.lightmapCaches) {
-        const std::uint64_t more = least - s.lightmapCaches;
-        p.minTexels = s.texelsPerMetre > 0 ? 0 : least;
-        p.caches = s.texelsPerMetre > 0 ? std::max(p.caches, least) : p.caches + more;
+    if (const std::uint64_t required = minTexels(scene); required > s.lightmapCaches) {
+        const std::uint64_t more = required - s.lightmapCaches;
+        p.minTexels = s.texelsPerMetre > 0 ? 0 : required;
+        p.caches = s.texelsPerMetre > 0 ? std::max(p.caches, required) : p.caches + more;
     }
     const Expected e = expect(scene);
     p.bytes = predictBytes(s, s.surfels, p.caches);

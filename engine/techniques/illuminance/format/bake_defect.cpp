@@ -16,15 +16,16 @@ bool linksAreBounded(const Caches& c, std::uint32_t bands) {
     const std::size_t coefficients = std::size_t(bands) * bands;
     for (std::size_t cache = 0; cache < c.size(); ++cache) {
         const float scaled = std::ldexp(kMaxTransport, c.linkExponent[cache]);
-        const int most = scaled < 65504 ? floatToHalf(scaled) : kLargest;
+        const int maxTransport = scaled < 65504 ? floatToHalf(scaled) : kLargest;
         for (std::size_t k = c.linkBegin[cache]; k < c.linkBegin[cache + 1]; ++k) {
             if (c.shNode.empty()) {
-                if (magnitude(c.links[k].u) > kLargest || magnitude(c.links[k].transport) > most)
+                if (magnitude(c.links[k].u) > kLargest ||
+                    magnitude(c.links[k].transport) > maxTransport)
                     return false;
                 continue;
             }
             for (std::size_t i = k * coefficients; i < (k + 1) * coefficients; ++i)
-                if (magnitude(c.shCoefficients[i]) > most)
+                if (magnitude(c.shCoefficients[i]) > maxTransport)
                     return false;
         }
     }

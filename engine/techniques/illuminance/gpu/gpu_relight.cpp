@@ -288,10 +288,10 @@ RoundChange GpuRelighter::State::bounce(CacheList caches, bool surfelsRead,
 /// Upper bound on the coefficients. The integral of |Y_i| is below sqrt(4 pi), so light of
 /// radiosity B from all around, of radiance B / pi, gives a coefficient of at most 1.13 B.
 float GpuRelighter::State::brightestCoefficient() const {
-    float most = brightest;
+    float maximum = brightest;
     for (const glm::vec3& c : sky)
-        most = std::max({most, c.x, c.y, c.z});
-    return 1.13f * most;
+        maximum = std::max({maximum, c.x, c.y, c.z});
+    return 1.13f * maximum;
 }
 
 /// Writes the caches that are to be lit, and the grid, into the field. Where the scale has to

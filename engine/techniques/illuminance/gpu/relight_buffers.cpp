@@ -28,10 +28,10 @@ static std::vector<GpuSurfel> packSurfels(const Bake& bake) {
 }
 
 static std::vector<glm::vec4> packLightPoints(const Surfels& surfels) {
-    const std::vector<glm::vec3>&at = surfels.litAt(), &normals = surfels.litNormals();
+    const std::vector<glm::vec3>&positions = surfels.litAt(), &normals = surfels.litNormals();
     std::vector<glm::vec4> out;
-    for (std::size_t k = 0; k < at.size(); ++k) {
-        out.emplace_back(at[k], 0);
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+        out.emplace_back(positions[k], 0);
         out.emplace_back(normals[k], 0);
     }
     return out;

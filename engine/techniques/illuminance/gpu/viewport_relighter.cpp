@@ -28,8 +28,8 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     }
     const std::vector<glm::vec3> sky = skyRadiosity(bake.tree, scene.sky);
     const ShadowedLights lights = viewport.shadowedLights();
-    const auto most = int(bake.settings.bands);
-    const auto bands = std::uint32_t(receiverBands(scene, most));
+    const auto maxBands = int(bake.settings.bands);
+    const auto bands = std::uint32_t(receiverBands(scene, maxBands));
     const GpuRelightStats g = m_gpu->relight({.direct = {},
                                               .albedo = m_albedo,
                                               .emitted = m_emitted,
@@ -45,7 +45,7 @@ RelightStats ViewportRelighter::relight(Viewport& viewport, const Scene& scene,
     RelightStats stats = g;
     stats.directMs += g.uploadMs + drawn.relightShadowMs;
     stats.bandsLit = bands;
-    stats.bandsSkipped = std::uint32_t(most) - bands;
+    stats.bandsSkipped = std::uint32_t(maxBands) - bands;
     stats.lightsOff = drawn.lightsOff;
     const std::chrono::duration<double, std::milli> total =
         std::chrono::steady_clock::now() - start;

@@ -181,11 +181,11 @@ CacheError compareCaches(const CacheReference& reference, const Caches& caches, 
     const double channels = 3 * double(squared.size());
     const double scale = meanReference / channels;
     double sum = 0;
-    const std::size_t most = squared.size() - squared.size() / 100;
+    const std::size_t trimmedCount = squared.size() - squared.size() / 100;
     for (std::size_t i = 0; i < squared.size(); ++i) {
         sum += squared[i];
-        if (i + 1 == most)
-            error.nrmseTrimmed = std::sqrt(sum / (3 * double(most))) / scale;
+        if (i + 1 == trimmedCount)
+            error.nrmseTrimmed = std::sqrt(sum / (3 * double(trimmedCount))) / scale;
     }
     error.nrmse = std::sqrt(sum / channels) / scale;
     error.bias = mean / meanReference - 1;

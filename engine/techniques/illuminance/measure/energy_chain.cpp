@@ -210,11 +210,11 @@ void Chain::addSender(const RayGatherer& gatherer, const std::vector<glm::vec4>&
     const double light = sumOf(met->albedo * E + std::numbers::pi_v<float> * met->emission),
                  excess = sumOf(glm::vec3(leaves[surfel])) - light;
     const float distance = hit.t / std::sqrt(bakes.bake->surfels.area[surfel]);
-    SenderSums& at =
+    SenderSums& bin =
         sums[std::size_t(std::ranges::upper_bound(kDistances, distance) - kDistances.begin())];
-    at.light += light;
-    at.excess += excess;
-    at.squares += excess * excess;
+    bin.light += light;
+    bin.excess += excess;
+    bin.squares += excess * excess;
 }
 
 /// Traces one ray for each path of each pixel. `truth`: the reference's irradiance, summed over

@@ -53,17 +53,17 @@ void markBacks(std::uint32_t points, std::span<std::uint32_t> sender) {
 
 /// Appends a cache of the bake and its points.
 void addCache(const Caches& caches, std::uint32_t cache, const CachePoints& points,
-              std::uint32_t at, SightReference& out) {
+              std::uint32_t index, SightReference& out) {
     out.cache.push_back(cache);
     out.caches.kind.push_back(caches.kind[cache]);
     out.caches.position.push_back(caches.position[cache]);
     out.caches.normal.push_back(caches.normal[cache]);
-    for (std::uint32_t p = points.begin[at]; p < points.begin[at + 1]; ++p) {
+    for (std::uint32_t p = points.begin[index]; p < points.begin[index + 1]; ++p) {
         out.points.position.push_back(points.position[p]);
         out.points.normal.push_back(points.normal[p]);
     }
     out.points.begin.push_back(std::uint32_t(out.points.position.size()));
-    out.points.seed.push_back(points.seed[at]);
+    out.points.seed.push_back(points.seed[index]);
 }
 
 /// A normal in the frame of a cache's points, in which z is the normal, and the index of its tilt.
@@ -225,10 +225,10 @@ SightReference traceSights(const TraceScene& trace, const SurfelSet& set, const 
     result.points.begin = {0};
     const auto all = std::uint32_t(points.seed.size());
     const std::uint32_t stride = std::max(1U, (all + count - 1) / std::max(count, 1U));
-    for (std::uint32_t at = 0; at < all; at += stride)
-        if (caches.kind[first + at] == kind &&
-            caches.linkBegin[first + at] < caches.linkBegin[first + at + 1])
-            addCache(caches, first + at, points, at, result);
+    for (std::uint32_t index = 0; index < all; index += stride)
+        if (caches.kind[first + index] == kind &&
+            caches.linkBegin[first + index] < caches.linkBegin[first + index + 1])
+            addCache(caches, first + index, points, index, result);
     result.sender.resize(result.cache.size() * std::size_t(result.rays));
     const RayGatherer gatherer(trace, set, result.caches, result.points, result.rays, owners);
     const bool done = parallelRanges(

@@ -87,8 +87,8 @@ public:
         if (sided)
             shBasis(m_bands, normal, basis.data());
         for (std::uint32_t k = m_caches.linkBegin[cache]; k < m_caches.linkBegin[cache + 1]; ++k) {
-            const LinkWeight at = linkWeight(m_caches, cache, k);
-            double irradiance = double(at.transport) / 4; // the mean over all normals
+            const LinkWeight sender = linkWeight(m_caches, cache, k);
+            double irradiance = double(sender.transport) / 4; // the mean over all normals
             if (sided) {
                 expandLink(m_caches, cache, k, m_bands, link.data());
                 irradiance = 0;
@@ -97,7 +97,7 @@ public:
                         irradiance += double(factors[std::size_t(l)] * basis[std::size_t(i)] *
                                              link[std::size_t(i)]);
             }
-            sum[at.node] += weight * irradiance;
+            sum[sender.node] += weight * irradiance;
         }
     }
 
@@ -136,29 +136,31 @@ std::string nameOf(const Scene& scene, std::uint32_t instance) {
 }
 
 /// The strongest senders by name.
-std::vector<std::string> strongest(const Dependencies& of, const Scene& scene) {
-    std::vector<std::uint32_t> order(of.sent.size());
+std::vector<std::string> strongest(const Dependencies& dependencies, const Scene& scene) {
+    std::vector<std::uint32_t> order(dependencies.sent.size());
     std::iota(order.begin(), order.end(), 0U);
-    std::ranges::stable_sort(order, std::greater<>(), [&](std::uint32_t i) { return of.sent[i]; });
-    std::erase_if(order, [&](std::uint32_t i) { return !(of.sent[i] > 0); });
+    std::ranges::stable_sort(order, std::greater<>(),
+                             [&](std::uint32_t i) { return dependencies.sent[i]; });
+    std::erase_if(order, [&](std::uint32_t i) { return !(dependencies.sent[i] > 0); });
     std::vector<std::string> lines;
-    const auto share = [&](double sent) { return 100 * sent / of.total; };
-    if (of.sky > 0)
-        lines.push_back(fmt::format("{:.1f} %  the sky", share(of.sky)));
+    const auto share = [&](double sent) { return 100 * sent / dependencies.total; };
+    if (dependencies.sky > 0)
+        lines.push_back(fmt::format("{:.1f} %  the sky", share(dependencies.sky)));
     for (std::size_t k = 0; k < std::min(order.size(), kNamed); ++k)
-        lines.push_back(fmt::format("{:.1f} %  {}{}", share(of.sent[order[k]]),
+        lines.push_back(fmt::format("{:.1f} %  {}{}", share(dependencies.sent[order[k]]),
                                     nameOf(scene, order[k]),
-                                    order[k] == of.instance ? " (itself)" : ""));
+                                    order[k] == dependencies.instance ? " (itself)" : ""));
     if (order.size() > kNamed)
         lines.push_back(fmt::format("and {} more", order.size() - kNamed));
     return lines;
 }
 
-OverlayLegend legendOf(const Dependencies& of, const Scene& scene) {
+OverlayLegend legendOf(const Dependencies& dependencies, const Scene& scene) {
     OverlayLegend legend;
-    legend.title = of.instance == ~0u ? std::string("What lights this place")
-                                      : fmt::format("What lights {}", nameOf(scene, of.instance));
-    if (!(of.total > 0)) {
+    legend.title = dependencies.instance == ~0u
+                       ? std::string("What lights this place")
+                       : fmt::format("What lights {}", nameOf(scene, dependencies.instance));
+    if (!(dependencies.total > 0)) {
         legend.notes = {"No bounced light reaches it"};
         return legend;
     }
@@ -168,8 +170,8 @@ OverlayLegend legendOf(const Dependencies& of, const Scene& scene) {
                                   fmt::format("object that sends {:g} % of it", 100 * share)});
     }
     legend.entries.push_back({packColor(kNothing), "object that sends it nothing"});
-    legend.notes = {fmt::format("{:.3g} lux of bounced light on average:", of.total)};
-    std::ranges::move(strongest(of, scene), std::back_inserter(legend.notes));
+    legend.notes = {fmt::format("{:.3g} lux of bounced light on average:", dependencies.total)};
+    std::ranges::move(strongest(dependencies, scene), std::back_inserter(legend.notes));
     return legend;
 }
 
@@ -196,17 +198,18 @@ OverlayData dependencyOverlay(const Bake& bake, const Scene& scene, const Overla
         out.legend = {"Dependencies", {}, {"No object picked: click one"}};
         return out;
     }
-    const Dependencies of = dependenciesOf(bake, scene, lit.radiosity, options.cache);
+    const Dependencies dependencies = dependenciesOf(bake, scene, lit.radiosity, options.cache);
     std::vector<glm::vec3> ofInstance;
-    for (const double sent : of.sent) {
-        const double t = sent > 0 ? 1 - std::log(sent / of.total) / std::log(kSmallestShare) : -1;
+    for (const double sent : dependencies.sent) {
+        const double t =
+            sent > 0 ? 1 - std::log(sent / dependencies.total) / std::log(kSmallestShare) : -1;
         ofInstance.push_back(sent > 0 ? viridis(float(std::clamp(t, 0., 1.))) : kNothing);
     }
     std::vector<glm::vec3> colors;
     for (const std::uint32_t instance : bake.surfels.instance)
         colors.push_back(ofInstance[instance]);
     out.marks = surfelMarks(bake.surfels, colors);
-    out.legend = legendOf(of, scene);
+    out.legend = legendOf(dependencies, scene);
     return out;
 }
 

@@ -79,7 +79,7 @@ OverlayData lobeOverlay(const Bake& bake, const LitBake& lit, std::uint32_t pick
 
     OverlayData out;
     std::uint32_t lobes = 0;
-    double least = 0, most = 0;
+    double minimum = 0, maximum = 0;
     std::vector<float> bright(directions.count);
     std::vector<glm::vec3> hue(directions.count);
     for (std::uint32_t c = one ? picked : 0; c < (one ? picked + 1 : caches.lightmapCount); ++c) {
@@ -92,8 +92,8 @@ OverlayData lobeOverlay(const Bake& bake, const LitBake& lit, std::uint32_t pick
                 radiance += sh[i] * basis[k * coefficients + i];
             bright[k] = luminance(radiance);
             hue[k] = lightHue(radiance);
-            least = std::min(least, double(bright[k]));
-            most = std::max(most, double(bright[k]));
+            minimum = std::min(minimum, double(bright[k]));
+            maximum = std::max(maximum, double(bright[k]));
         }
         const bool cell = caches.kind[c] == CacheKind::Grid;
         addLobe({caches.position[c] + (cell ? 0.f : 0.1f * reach) * caches.normal[c], reach},
@@ -104,8 +104,8 @@ OverlayData lobeOverlay(const Bake& bake, const LitBake& lit, std::uint32_t pick
                            : fmt::format("Light at caches, {} bands", lit.bands);
     out.legend.entries = {
         {packColor(glm::vec3(1)),
-         fmt::format("light from there, in its own colour, up to {:.3g} nits", most)},
-        {packColor(kNegativeLight), fmt::format("less than none, to {:.3g} nits", least)}};
+         fmt::format("light from there, in its own colour, up to {:.3g} nits", maximum)},
+        {packColor(kNegativeLight), fmt::format("less than none, to {:.3g} nits", minimum)}};
     out.legend.notes = {
         one ? "The longest ray of the lobe is the brightest direction"
             : fmt::format("{} of {} lightmap texels; each lobe's longest ray has the same length; "

@@ -61,10 +61,10 @@ static std::optional<std::uint32_t> gridCacheAt(const Bake& bake, glm::vec3 posi
     const glm::uvec3 c(glm::clamp(x, glm::vec3(0), cells - 1.f));
     const std::uint32_t cell = (c.z * bake.gridSize.y + c.y) * bake.gridSize.x + c.x;
     const auto begin = bake.caches.texel.begin() + bake.caches.lightmapCount;
-    const auto at = std::find(begin, bake.caches.texel.end(), cell);
-    if (at == bake.caches.texel.end())
+    const auto found = std::find(begin, bake.caches.texel.end(), cell);
+    if (found == bake.caches.texel.end())
         return {};
-    return std::uint32_t(at - bake.caches.texel.begin());
+    return std::uint32_t(found - bake.caches.texel.begin());
 }
 
 std::optional<std::uint32_t> cacheAt(const Bake& bake, const Scene& scene, const Hit& hit) {
@@ -74,10 +74,10 @@ std::optional<std::uint32_t> cacheAt(const Bake& bake, const Scene& scene, const
     const Bilinear b = bilinearAt(layout, scene, hit);
     const auto strongest = std::max_element(b.weight, b.weight + 4) - b.weight;
     const auto end = bake.caches.texel.begin() + bake.caches.lightmapCount;
-    const auto at = std::find(bake.caches.texel.begin(), end, b.texel[strongest]);
-    if (at == end)
+    const auto found = std::find(bake.caches.texel.begin(), end, b.texel[strongest]);
+    if (found == end)
         return {};
-    return std::uint32_t(at - bake.caches.texel.begin());
+    return std::uint32_t(found - bake.caches.texel.begin());
 }
 
 } // namespace limn

@@ -45,10 +45,10 @@ std::uint32_t treeDepth(const ClusterTree& tree) {
 }
 
 std::vector<std::uint32_t> clustersAtDepth(const ClusterTree& tree, std::uint32_t depth) {
-    const std::vector<std::uint32_t> at = depths(tree);
+    const std::vector<std::uint32_t> depthOf = depths(tree);
     std::vector<std::uint32_t> cluster(tree.size());
     for (std::uint32_t n = tree.size(); n-- > 0;)
-        cluster[n] = at[n] <= depth ? n : cluster[tree.parent[n]];
+        cluster[n] = depthOf[n] <= depth ? n : cluster[tree.parent[n]];
     cluster.resize(tree.leaves());
     return cluster;
 }
@@ -149,7 +149,7 @@ static float gridSpacing(const Bake& bake) {
 
 struct TexelRadii {
     std::vector<float> radius;
-    std::uint32_t own = 0; ///< number of surfel caches, which only surfels read
+    std::uint32_t surfelCaches = 0; ///< number of surfel caches, which only surfels read
 };
 
 // Half the side of the square of surface that each lightmap texel stands for [m]; half the mean of
@@ -166,7 +166,7 @@ static TexelRadii texelRadii(const Bake& bake, const Scene& scene) {
     for (std::uint32_t c = 0; c < bake.caches.lightmapCount; ++c)
         if (float& r = out.radius[bake.caches.texel[c]]; r == 0) {
             r = float(0.5 * sum / std::max(used, 1U));
-            ++out.own;
+            ++out.surfelCaches;
         }
     return out;
 }
@@ -202,25 +202,25 @@ static OverlayData cacheOverlay(const Bake& bake, const Scene& scene) {
                                           invalidTexels, invalidCells)}};
     out.legend.notes = {fmt::format("Squares have {:.0f} % of the side of what a texel stands for",
                                     100 * kTexelScale)};
-    if (radii.own > 0)
-        out.legend.notes.push_back(
-            fmt::format("Those of half the size, {}, are read by surfels alone", radii.own));
+    if (radii.surfelCaches > 0)
+        out.legend.notes.push_back(fmt::format(
+            "Those of half the size, {}, are read by surfels alone", radii.surfelCaches));
     if (cells > 0)
         out.legend.notes.push_back(
             fmt::format("Grid cells are {:.3g} m apart", double(gridSpacing(bake))));
     return out;
 }
 
-static OverlayLegend linkLegend(const Bake& bake, const LinkCut& cut, float least) {
+static OverlayLegend linkLegend(const Bake& bake, const LinkCut& cut, float minWeight) {
     OverlayLegend legend{fmt::format("Link cut of cache {}", cut.cache), {}, {}};
     if (cut.nodes.empty()) {
         legend.notes = {
             fmt::format("Invalid: no links; filled from {} caches", cut.filledFrom.size())};
         return legend;
     }
-    const float most = cut.nodes.front().weight;
+    const float maxWeight = cut.nodes.front().weight;
     for (int k = 4; k >= 0; --k) {
-        const float t = float(k) / 4, weight = least * std::pow(most / least, t);
+        const float t = float(k) / 4, weight = minWeight * std::pow(maxWeight / minWeight, t);
         legend.entries.push_back(
             {packColor(viridis(t)),
              fmt::format("{:.3g} % of its view", 100 * double(weight) / cut.total)});
@@ -248,21 +248,21 @@ static OverlayData linkOverlay(const Bake& bake, const Scene& scene, std::uint32
         return out;
     }
     const LinkCut cut = linkCut(bake, cache);
-    float most = 0, least = 1e30f;
+    float maxWeight = 0, minWeight = 1e30f;
     for (const LinkedNode& n : cut.nodes)
         if (n.weight > 0)
-            most = std::max(most, n.weight), least = std::min(least, n.weight);
-    least = std::max(std::min(least, 0.5f * most), 1e-4f * most);
-    const float octaves = most > 0 ? std::log(most / least) : 1;
+            maxWeight = std::max(maxWeight, n.weight), minWeight = std::min(minWeight, n.weight);
+    minWeight = std::max(std::min(minWeight, 0.5f * maxWeight), 1e-4f * maxWeight);
+    const float octaves = maxWeight > 0 ? std::log(maxWeight / minWeight) : 1;
     out.marks = surfelMarks(bake.surfels, [&](std::uint32_t i) {
         const float w = cut.nodeWeight[i];
-        return w > 0 ? viridis(std::log(w / least) / octaves) : kUnlinked;
+        return w > 0 ? viridis(std::log(w / minWeight) / octaves) : kUnlinked;
     });
     OverlayMark ring = cacheMark(bake, cache, texelRadii(bake, scene).radius);
     ring.radius *= 1.5f;
     ring.shape = MarkShape::Ring;
     out.marks.push_back(ring);
-    out.legend = linkLegend(bake, cut, least);
+    out.legend = linkLegend(bake, cut, minWeight);
     return out;
 }
 

@@ -57,12 +57,12 @@ Lines surfelLines(const Bake& bake, const Scene& scene, const OverlayOptions& op
                   const Hit& hit, const LitBake* lit) {
     const Surfels& s = bake.surfels;
     Lines lines;
-    const std::optional<std::uint32_t> at = surfelAt(s, hit);
-    if (!at) {
+    const std::optional<std::uint32_t> surfel = surfelAt(s, hit);
+    if (!surfel) {
         add(lines, "No surfel on this side of the object");
         return lines;
     }
-    const std::uint32_t i = *at;
+    const std::uint32_t i = *surfel;
     const Instance& owner = scene.instances[s.instance[i]];
     add(lines, fmt::format("Surfel {}, {:.3g} m\u00b2", i, s.area[i]));
     switch (options.kind) {
@@ -101,13 +101,13 @@ Lines surfelLines(const Bake& bake, const Scene& scene, const OverlayOptions& op
 
 Lines cacheLines(const Bake& bake, const Scene& scene, const Hit& hit, const LitBake* lit) {
     Lines lines;
-    const std::optional<std::uint32_t> at = cacheAt(bake, scene, hit);
-    if (!at) {
+    const std::optional<std::uint32_t> cache = cacheAt(bake, scene, hit);
+    if (!cache) {
         add(lines, "No cache here");
         return lines;
     }
     const Caches& caches = bake.caches;
-    const std::uint32_t c = *at;
+    const std::uint32_t c = *cache;
     add(lines, fmt::format("Cache {}, {}", c,
                            caches.kind[c] == CacheKind::Grid ? "a cell of the grid"
                                                              : "a texel of the lightmap"));
@@ -135,9 +135,9 @@ Lines texelLines(const Bake& bake, const Scene& scene, const Hit& hit) {
     const Instance& instance = scene.instances[hit.instance];
     const MeshCharts& charts = layout.meshes[instance.mesh];
     const glm::vec2 size(layout.width, layout.height);
-    const glm::vec2 at = lightmapUv(layout, hit.instance, instance.mesh, hit.triangle, hit.u, hit.v,
-                                    !hit.frontFace) *
-                         size;
+    const glm::vec2 position = lightmapUv(layout, hit.instance, instance.mesh, hit.triangle, hit.u,
+                                          hit.v, !hit.frontFace) *
+                               size;
     glm::vec3 p[3];
     glm::vec2 uv[3];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -149,8 +149,8 @@ Lines texelLines(const Bake& bake, const Scene& scene, const Hit& hit) {
     const glm::vec2 a = uv[1] - uv[0], b = uv[2] - uv[0];
     const float texels = std::abs(a.x * b.y - a.y * b.x);
     const float area = glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
-    add(lines, fmt::format("Texel {:.0f}, {:.0f} of {} x {}", std::floor(at.x), std::floor(at.y),
-                           layout.width, layout.height));
+    add(lines, fmt::format("Texel {:.0f}, {:.0f} of {} x {}", std::floor(position.x),
+                           std::floor(position.y), layout.width, layout.height));
     add(lines, fmt::format("Chart {} of {} of this mesh", charts.chartOfTriangle[hit.triangle] + 1,
                            charts.chartSize.size()));
     if (texels > 0 && area > 0)

@@ -26,11 +26,11 @@ const glm::vec3 kSingle(0.23f, 0.36f, 0.55f), kShared(0.99f, 0.75f, 0.25f), kOve
 
 /// A triangle of an instance in the atlas and in the world.
 struct AtlasTriangle {
-    std::array<glm::vec2, 3> at; ///< texels
-    double area;                 ///< [m^2]
+    std::array<glm::vec2, 3> corner; ///< [texels]
+    double area;                     ///< [m^2]
 
     double texels() const {
-        const glm::dvec2 a(at[1] - at[0]), b(at[2] - at[0]);
+        const glm::dvec2 a(corner[1] - corner[0]), b(corner[2] - corner[0]);
         return 0.5 * std::abs(a.x * b.y - a.y * b.x);
     }
 };
@@ -83,7 +83,7 @@ static AtlasTriangle atlasTriangle(const LightmapLayout& layout, const Scene& sc
     std::array<glm::vec3, 3> p;
     for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t v = charts.indices[3 * t + k];
-        out.at[k] = layout.instances[instance].uv[v] * size;
+        out.corner[k] = layout.instances[instance].uv[v] * size;
         p[k] = inst.toWorld * glm::vec4(scene.meshOf(inst).positions[charts.sourceVertex[v]], 1);
     }
     out.area = 0.5 * double(glm::length(glm::cross(p[1] - p[0], p[2] - p[0])));
@@ -94,7 +94,7 @@ static AtlasTriangle atlasTriangle(const LightmapLayout& layout, const Scene& sc
 // fractions at which edges like to lie.
 static std::uint16_t pointsInside(const std::array<glm::vec2, 3>& t, int x, int y) {
     const double area = cross(t[1] - t[0], t[2] - t[0]);
-    const double least = 1e-4 * std::abs(area);
+    const double minArea = 1e-4 * std::abs(area);
     std::uint16_t bits = 0;
     if (area == 0)
         return 0;
@@ -103,9 +103,9 @@ static std::uint16_t pointsInside(const std::array<glm::vec2, 3>& t, int x, int 
             glm::vec2(x, y) +
             (glm::vec2(k % kSide, k / kSide) + glm::vec2(0.4142f, 0.5857f)) / float(kSide);
         const double side = area > 0 ? 1 : -1;
-        if (side * cross(t[1] - t[0], p - t[0]) > least &&
-            side * cross(t[2] - t[1], p - t[1]) > least &&
-            side * cross(t[0] - t[2], p - t[2]) > least)
+        if (side * cross(t[1] - t[0], p - t[0]) > minArea &&
+            side * cross(t[2] - t[1], p - t[1]) > minArea &&
+            side * cross(t[0] - t[2], p - t[2]) > minArea)
             bits = std::uint16_t(bits | 1u << k);
     }
     return bits;
@@ -123,9 +123,10 @@ static bool looksUp(const std::array<glm::vec2, 3>& t, int x, int y) {
     for (std::size_t k = 0; k < 3; ++k) {
         const glm::vec2 edge = t[(k + 1) % 3] - t[k];
         const glm::vec2 n(-edge.y, edge.x);
-        const float own = glm::dot(n, t[(k + 2) % 3] - t[k]), at = glm::dot(n, c - t[k]);
+        const float height = glm::dot(n, t[(k + 2) % 3] - t[k]), distance = glm::dot(n, c - t[k]);
         const float reach = kReach * (std::abs(n.x) + std::abs(n.y));
-        if (own > 0 ? at < -reach || at > own + reach : at > reach || at < own - reach)
+        if (height > 0 ? distance < -reach || distance > height + reach
+                       : distance > reach || distance < height - reach)
             return false;
     }
     return true;
@@ -147,16 +148,16 @@ void Raster::addTexel(std::size_t texel, std::uint32_t chart, std::uint16_t poin
 }
 
 void Raster::add(const AtlasTriangle& t, std::uint32_t chart, float density) {
-    const glm::vec2 lower = glm::min(glm::min(t.at[0], t.at[1]), t.at[2]) - 1.5f;
-    const glm::vec2 upper = glm::max(glm::max(t.at[0], t.at[1]), t.at[2]) + 0.5f;
+    const glm::vec2 lower = glm::min(glm::min(t.corner[0], t.corner[1]), t.corner[2]) - 1.5f;
+    const glm::vec2 upper = glm::max(glm::max(t.corner[0], t.corner[1]), t.corner[2]) + 0.5f;
     const glm::ivec2 last(int(layout.width) - 1, int(layout.height) - 1);
     const glm::ivec2 from = glm::max(glm::ivec2(glm::floor(lower)), 0);
     const glm::ivec2 to = glm::min(glm::ivec2(glm::ceil(upper)), last);
     for (int y = from.y; y <= to.y; ++y)
         for (int x = from.x; x <= to.x; ++x)
-            if (looksUp(t.at, x, y))
+            if (looksUp(t.corner, x, y))
                 addTexel(std::size_t(y) * layout.width + std::size_t(x), chart,
-                         pointsInside(t.at, x, y), density);
+                         pointsInside(t.corner, x, y), density);
 }
 
 static void addInstance(Raster& raster, const Scene& scene, std::size_t i) {
@@ -169,7 +170,7 @@ static void addInstance(Raster& raster, const Scene& scene, std::size_t i) {
         triangles.push_back(atlasTriangle(layout, scene, i, t));
         ChartExtent& e = extents[charts.chartOfTriangle[t]];
         e.area += triangles[t].area;
-        for (const glm::vec2 p : triangles[t].at)
+        for (const glm::vec2 p : triangles[t].corner)
             e.lower = glm::min(e.lower, p), e.upper = glm::max(e.upper, p);
     }
     for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -181,7 +182,7 @@ static void addInstance(Raster& raster, const Scene& scene, std::size_t i) {
         raster.add(triangles[t], raster.use.charts + chart, float(density));
         if (backRows == 0)
             continue;
-        for (glm::vec2& p : triangles[t].at)
+        for (glm::vec2& p : triangles[t].corner)
             p.y += float(backRows);
         raster.add(triangles[t], raster.use.charts + chart, float(density));
     }
@@ -194,11 +195,11 @@ static void addFineTexels(const LightmapLayout& layout, TexelUse& use) {
     // Blocks come after what they stand for.
     for (std::size_t place = 0; place < use.kind.size() && place < layout.snaps.size(); ++place)
         for (std::uint32_t k = 0; (layout.snaps[place] & kFineLookup) && k < kBlock * kBlock; ++k) {
-            const std::size_t at = std::size_t(layout.snaps[place] & ~kFineLookup) +
-                                   std::size_t(k / kBlock) * layout.width + k % kBlock;
-            use.kind[at] = use.kind[place];
-            use.chart[at] = use.chart[place];
-            use.density[at] = use.density[place] * float(kFineCells);
+            const std::size_t fineTexel = std::size_t(layout.snaps[place] & ~kFineLookup) +
+                                          std::size_t(k / kBlock) * layout.width + k % kBlock;
+            use.kind[fineTexel] = use.kind[place];
+            use.chart[fineTexel] = use.chart[place];
+            use.density[fineTexel] = use.density[place] * float(kFineCells);
         }
 }
 

@@ -9,9 +9,9 @@ std::vector<float> seenShares(const ClusterTree& tree) {
         return share;
     share.back() = 1; // the root
     for (std::size_t k = tree.left.size(); k-- > 0;) {
-        const float own = share[tree.leaves() + k], left = own * tree.leftWeight[k];
+        const float whole = share[tree.leaves() + k], left = whole * tree.leftWeight[k];
         share[tree.left[k]] = left;
-        share[tree.right[k]] = own - left;
+        share[tree.right[k]] = whole - left;
     }
     share.resize(tree.surfels);
     return share;

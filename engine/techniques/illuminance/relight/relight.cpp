@@ -93,8 +93,8 @@ Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
     s.field.lightmapHeight = s.bake->lightmap.height;
     s.field.continues = true;
     s.field.gridBounds = s.bake->gridBounds;
-    const int most = int(s.bake->settings.bands);
-    s.setBands(lit == LitBands::All ? most : std::min(most, kIrradianceBands));
+    const int maxBands = int(s.bake->settings.bands);
+    s.setBands(lit == LitBands::All ? maxBands : std::min(maxBands, kIrradianceBands));
 }
 
 Relighter::~Relighter() = default;

@@ -143,7 +143,7 @@ TexelBox texelsOf(const Polygon& p, glm::ivec2 size) {
 
 /// Adds the footprints of the triangles of one chart.
 void addChart(const InstanceLookup& in, std::span<const std::uint32_t> triangles,
-              std::vector<std::int32_t>& at, std::vector<TexelFootprint>& out) {
+              std::vector<std::int32_t>& indexOf, std::vector<TexelFootprint>& out) {
     const glm::ivec2 size(int(in.layout.width), int(in.layout.height));
     TexelBox box{size, glm::ivec2(-1)};
     for (const std::uint32_t t : triangles) {
@@ -151,7 +151,7 @@ void addChart(const InstanceLookup& in, std::span<const std::uint32_t> triangles
         box = {glm::min(box.lower, b.lower), glm::max(box.upper, b.upper)};
     }
     const glm::ivec2 extent = box.upper - box.lower + 1;
-    at.assign(std::size_t(extent.x) * std::size_t(extent.y), -1);
+    indexOf.assign(std::size_t(extent.x) * std::size_t(extent.y), -1);
     for (const std::uint32_t t : triangles) {
         const Polygon whole = in.triangle(t);
         const glm::vec3 normal = in.normal(t);
@@ -164,7 +164,7 @@ void addChart(const InstanceLookup& in, std::span<const std::uint32_t> triangles
                 if (part.count == 0)
                     continue;
                 const glm::ivec2 local = texel - box.lower;
-                std::int32_t& k = at[std::size_t(local.y * extent.x + local.x)];
+                std::int32_t& k = indexOf[std::size_t(local.y * extent.x + local.x)];
                 if (k < 0) {
                     constexpr float kFar = std::numeric_limits<float>::max();
                     k = std::int32_t(out.size());

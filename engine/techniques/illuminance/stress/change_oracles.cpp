@@ -51,13 +51,13 @@ MeanLight meanLight(const LitScene& s, const Progress& progress) {
 /// the light is allowed for rounding.
 double deviations(const LitScene& a, const LitScene& b, const Progress& progress) {
     const MeanLight x = meanLight(a, progress), y = meanLight(b, progress);
-    double most = 0;
+    double maximum = 0;
     for (int c = 0; c < 3; ++c) {
         const double rounding = 1e-3 * (x.mean[c] + y.mean[c]) + 1e-30;
         const double sigma = std::sqrt(x.variance[c] + y.variance[c] + rounding * rounding);
-        raise(most, std::abs(x.mean[c] - y.mean[c]) / sigma);
+        raise(maximum, std::abs(x.mean[c] - y.mean[c]) / sigma);
     }
-    return most;
+    return maximum;
 }
 
 /// Surfels and rays are drawn differently in the changed scene, so only means can be compared. Six
@@ -81,8 +81,8 @@ Judgement judgeScale(const Subject& subject) {
     const Scene& scene = subject.base.scene;
     RandomStream random(subject.seed + 1);
     const double size = double(glm::length(scene.bounds.size()));
-    const int most = size < 1 ? 13 : -13; // towards the other end of the allowed scene sizes
-    const float s = std::exp2(float(random.whole(std::min(1, most), std::max(-1, most))));
+    const int limit = size < 1 ? 13 : -13; // towards the other end of the allowed scene sizes
+    const float s = std::exp2(float(random.whole(std::min(1, limit), std::max(-1, limit))));
     const Scene scaled = scaledScene(scene, s);
     for (const Light& l : scaled.lights)
         if (l.strength > kMaxLight ||
@@ -113,9 +113,9 @@ Judgement judgeTranslation(const Subject& subject) {
     if (sizesAway(scene) > kMaxSizesAway)
         return notJudged();
     RandomStream random(subject.seed + 2);
-    const glm::dvec3 by(random.between(-8, 8), random.between(-8, 8), random.between(-8, 8));
+    const glm::dvec3 offset(random.between(-8, 8), random.between(-8, 8), random.between(-8, 8));
     const double size = double(glm::length(scene.bounds.size()));
-    return judgeAlike(subject, movedScene(scene, glm::vec3(by * size)));
+    return judgeAlike(subject, movedScene(scene, glm::vec3(offset * size)));
 }
 
 /// Moves up to 2^24 sizes away, where floats relative to the file's origin could not distinguish
@@ -127,8 +127,8 @@ Judgement judgeFar(const Subject& subject) {
     RandomStream random(subject.seed + 6);
     const glm::dvec3 way(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
     const double size = double(glm::length(scene.bounds.size()));
-    const glm::dvec3 by = way * size * std::exp2(random.between(4, 24));
-    const Document moved = movedDocument(*subject.document, scene.assets->meshes, by);
+    const glm::dvec3 offset = way * size * std::exp2(random.between(4, 24));
+    const Document moved = movedDocument(*subject.document, scene.assets->meshes, offset);
     const Scene far = flatten(moved, scene.assets);
     if (moved.origin == glm::dvec3(0) || !reachDefect(far).empty())
         return notJudged(); // nothing is static, or it is not far for what is

@@ -219,12 +219,12 @@ Judgement judgeFurnaceMost(const Subject& subject) {
     if (subject.base.scene.bake.linker != Linker::Gather)
         return notJudged();
     return judgeFurnace(subject, [](const LitScene& s) {
-        double most = 0;
+        double maximum = 0;
         for (std::size_t i = 0; i < s.bake->surfels.size(); ++i)
             for (int c = 0; c < 3; ++c)
-                raise(most, double(s.light.radiosity[i][c]));
+                raise(maximum, double(s.light.radiosity[i][c]));
         const double elsewhere = s.bake->settings.bands < 3 ? 2 : 1.138;
-        return judged(most / kFurnace, 1.01 * (looksAlong(s) ? 1 : elsewhere));
+        return judged(maximum / kFurnace, 1.01 * (looksAlong(s) ? 1 : elsewhere));
     });
 }
 

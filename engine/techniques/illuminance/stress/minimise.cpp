@@ -107,7 +107,8 @@ private:
     bool makePlain() {
         bool changed = false;
         for (const auto& [id, object] : Document(m_best.document).objects)
-            changed |= std::visit([&, at = id](const auto& o) { return makePlain(at, o); }, object);
+            changed |=
+                std::visit([&, key = id](const auto& o) { return makePlain(key, o); }, object);
         return changed;
     }
     template <class T>

@@ -41,24 +41,24 @@ Scene scaledScene(Scene scene, float s) {
     return scene;
 }
 
-Scene movedScene(Scene scene, glm::vec3 by) {
+Scene movedScene(Scene scene, glm::vec3 offset) {
     for (Instance& i : scene.instances)
-        i.toWorld[3] += glm::vec4(by, 0);
+        i.toWorld[3] += glm::vec4(offset, 0);
     for (Light& l : scene.lights)
-        l.position += by;
+        l.position += offset;
     setBounds(scene);
     return scene;
 }
 
-Document movedDocument(Document document, std::span<const Mesh> meshes, const glm::dvec3& by) {
+Document movedDocument(Document document, std::span<const Mesh> meshes, const glm::dvec3& offset) {
     const glm::dvec3 before = document.origin;
     for (auto& [id, object] : document.objects)
         if (Node* node = std::get_if<Node>(&object); node && node->parent == 0)
-            node->transform.translation += by;
+            node->transform.translation += offset;
     document.origin = originOf(document, meshes);
     for (auto& [id, object] : document.objects)
         if (Light* light = std::get_if<Light>(&object))
-            light->position = toWorld(document.origin, toFile(before, light->position) + by);
+            light->position = toWorld(document.origin, toFile(before, light->position) + offset);
     return document;
 }
 

@@ -44,10 +44,10 @@ Judgement judgeBrightness(const Subject& subject) {
 }
 
 std::uint32_t maxLinks(const Caches& caches) {
-    std::uint32_t most = 0;
+    std::uint32_t maximum = 0;
     for (std::size_t c = 0; c < caches.size(); ++c)
-        most = std::max(most, caches.linkBegin[c + 1] - caches.linkBegin[c]);
-    return most;
+        maximum = std::max(maximum, caches.linkBegin[c + 1] - caches.linkBegin[c]);
+    return maximum;
 }
 
 /// Maximum difference of sums of n links that are added in another order. With the lights' sums and

@@ -138,8 +138,8 @@ float magnitudeOf(const Scene& scene) {
     const bool anyStatic =
         std::ranges::any_of(scene.instances, [](const Instance& i) { return !i.dynamic; });
     const Bounds b = anyStatic ? staticBounds(scene) : scene.bounds;
-    const glm::vec3 most = glm::max(glm::abs(b.lower), glm::abs(b.upper));
-    const float largest = std::max({most.x, most.y, most.z});
+    const glm::vec3 magnitudes = glm::max(glm::abs(b.lower), glm::abs(b.upper));
+    const float largest = std::max({magnitudes.x, magnitudes.y, magnitudes.z});
     return largest > 0 ? std::exp2(std::ceil(std::log2(largest))) : 0;
 }
 

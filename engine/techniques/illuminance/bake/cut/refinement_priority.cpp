@@ -127,15 +127,15 @@ void RefinementPriority::chooseRepresentative(const VisibleTree& seen,
                                               const TrainingLight& training, std::uint32_t i,
                                               const std::array<float, kLinkCandidates>& errors) {
     const float formFactor = seen.formFactor[i].irradiance;
-    float least = std::numeric_limits<float>::infinity();
+    float minimum = std::numeric_limits<float>::infinity();
     const auto consider = [&](Representative choice, const Read& read) {
         const float error = errors[std::size_t(choice)];
         const float expected =
             error + m_weight[kLightings] *
                         priorError(formFactor, read.seen, training.squaredWeights[read.node]);
-        if (!(expected < least))
+        if (!(expected < minimum))
             return;
-        least = expected;
+        minimum = expected;
         m_error[i] = error;
         m_read[i] = read;
         m_choices.representative[i - seen.leaves()] = choice;

@@ -120,7 +120,8 @@ private:
         double sum = 0;
         for (const AimedSample& sample : all)
             cumulative.push_back(
-                sum += double(viewOf(set.surfels, points, caches.kind[cache], sample).transport));
+                sum +=
+                double(solidAngleOf(set.surfels, points, caches.kind[cache], sample).transport));
         std::vector<AimedSample> chosen;
         const double step = sum / maximum,
                      start = double(unitFloat(mixBits(points.seed[cache] + 1))) * step;
@@ -142,9 +143,9 @@ private:
         RaysTogether<AimedSample> rays(trace, TraceMask::Static);
         const auto open = [&](const AimedSample& sample) { aimed.push_back(sample); };
         for (const AimedSample& sample : samples) {
-            const SenderView view = viewOf(set.surfels, points, kind, sample);
-            if (view.transport > 0)
-                rays.add(rayTo(sample, view.direction), sample, open);
+            const SubtendedSolidAngle subtended = solidAngleOf(set.surfels, points, kind, sample);
+            if (subtended.transport > 0)
+                rays.add(rayTo(sample, subtended.direction), sample, open);
         }
         rays.flush(open);
         return std::uint32_t(rays.traced());
@@ -273,28 +274,29 @@ std::uint32_t RayGatherer::traceRest(std::uint32_t cache, RawHit* hits) const {
     return std::uint32_t(rest.size());
 }
 
-SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
-                  const AimedSample& sample) {
+SubtendedSolidAngle solidAngleOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
+                                 const AimedSample& sample) {
     constexpr float kPi = std::numbers::pi_v<float>;
     const std::uint32_t s = sample.sender;
-    SenderView view;
+    SubtendedSolidAngle subtended;
     if (s >= surfels.size()) {
-        view.direction = skyCellDirection(s - std::uint32_t(surfels.size()));
-        view.transport = sample.scale * 4 / float(kSkyCells);
+        subtended.direction = skyCellDirection(s - std::uint32_t(surfels.size()));
+        subtended.transport = sample.scale * 4 / float(kSkyCells);
     } else {
         const glm::vec3 way = surfels.position[s] - points.position[sample.point];
         const float d2 = glm::dot(way, way);
         if (!(d2 > 0))
             return {};
-        view.direction = way / std::sqrt(d2);
-        const float cosSender = -glm::dot(view.direction, surfels.normal[s]);
+        subtended.direction = way / std::sqrt(d2);
+        const float cosSender = -glm::dot(subtended.direction, surfels.normal[s]);
         if (!(cosSender > 0))
             return {};
-        view.transport =
+        subtended.transport =
             sample.scale * surfels.area[s] * cosSender / (d2 + surfels.area[s] / (2 * kPi)) / kPi;
     }
-    view.cosTheta = glm::dot(view.direction, points.normal[sample.point]);
-    return kind == CacheKind::Hemisphere && !(view.cosTheta > 0) ? SenderView{} : view;
+    subtended.cosTheta = glm::dot(subtended.direction, points.normal[sample.point]);
+    return kind == CacheKind::Hemisphere && !(subtended.cosTheta > 0) ? SubtendedSolidAngle{}
+                                                                      : subtended;
 }
 
 std::uint32_t maxAimed(const Scene& scene, const SurfelSet& set, Linker linker,

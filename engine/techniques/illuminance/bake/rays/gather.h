@@ -13,18 +13,18 @@
 
 namespace limn {
 
-/// How a sender would appear from a point without occlusion.
-struct SenderView {
+/// The solid angle that a sender subtends at a point without occlusion.
+struct SubtendedSolidAngle {
     float transport = 0;          ///< solid angle / pi; 0: they do not face each other
     float cosTheta = 0;           ///< at the point; 0 for the grid
     glm::vec3 direction{0, 0, 1}; ///< unit, away from the point
 };
 
-/// View of the sample's sender from its point. The solid angle, times the sample's scale, is a sky
-/// cell's own; for a surfel it is the bounded a cos / (d^2 + a / 2 pi), which tends to 2 pi at
-/// contact. A point of a Hemisphere cache sees nothing behind it.
-SenderView viewOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
-                  const AimedSample& sample);
+/// Solid angle of the sample's sender at its point, times the sample's scale. A sky cell has its
+/// whole solid angle; that of a surfel is the bounded a cos / (d^2 + a / 2 pi), which tends to 2 pi
+/// at contact. A point of a Hemisphere cache sees nothing behind it.
+SubtendedSolidAngle solidAngleOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
+                                 const AimedSample& sample);
 
 /// Result of one ray before classifyHits(): a leaf of the ClusterTree or, with kBack set, the
 /// surfel on the front of the one-sided surface whose back it met. Tracing yields only these 4

@@ -82,9 +82,9 @@ struct LitPoint {
 /// width].
 constexpr std::array<float, 2> kHeights = {0.05f, 0.5f};
 
-/// A surfel's place, and that place raised by each of kHeights.
-struct Middle {
-    LitPoint place;
+/// The centre of a surfel, and that point raised by each of kHeights.
+struct SurfelCentre {
+    LitPoint point;
     std::array<glm::vec3, kHeights.size()> raised;
 };
 
@@ -95,15 +95,15 @@ struct Finder {
     const RayGatherer& gatherer;
     std::uint64_t rays = 0;
 
-    LitPoint pointOf(const CacheRay& source, const LitPoint& place, std::uint32_t s);
+    LitPoint pointOf(const CacheRay& source, const LitPoint& centre, std::uint32_t s);
     glm::vec3 raised(const LitPoint& point, std::uint32_t s, float height);
-    bool isOnSameSide(const LitPoint& point, const Middle& middle, std::uint32_t s);
+    bool isOnSameSide(const LitPoint& point, const SurfelCentre& centre, std::uint32_t s);
     std::array<LitPoint, kLightPoints> find(const CandidateRays& chosen, std::uint32_t s);
 };
 
-/// Where the ray met the surfel's patch; the surfel's place where there is no ray.
-LitPoint Finder::pointOf(const CacheRay& source, const LitPoint& place, std::uint32_t s) {
-    LitPoint point = place;
+/// Where the ray met the surfel's patch; the surfel's centre where there is no ray.
+LitPoint Finder::pointOf(const CacheRay& source, const LitPoint& centre, std::uint32_t s) {
+    LitPoint point = centre;
     if (source.cache == ~0U)
         return point;
     ++rays;
@@ -130,14 +130,14 @@ glm::vec3 Finder::raised(const LitPoint& point, std::uint32_t s, float height) {
         .position;
 }
 
-/// Whether no wall stands between the point and the surfel's place.
-bool Finder::isOnSameSide(const LitPoint& point, const Middle& middle, std::uint32_t s) {
+/// Whether no wall stands between the point and the surfel's centre.
+bool Finder::isOnSameSide(const LitPoint& point, const SurfelCentre& centre, std::uint32_t s) {
     constexpr float kAlike = 0.5f; // cosine of 60 degrees
     for (std::size_t k = 0; k < kHeights.size(); ++k) {
         ++rays;
-        if (clearAlong(trace, raised(point, s, kHeights[k]), middle.raised[k], [&](const Hit& hit) {
+        if (clearAlong(trace, raised(point, s, kHeights[k]), centre.raised[k], [&](const Hit& hit) {
                 return hit.instance == surfels.instance[s] &&
-                       std::abs(glm::dot(hit.geometricNormal, middle.place.normal)) > kAlike;
+                       std::abs(glm::dot(hit.geometricNormal, centre.point.normal)) > kAlike;
             }))
             return true;
     }
@@ -148,21 +148,21 @@ bool Finder::isOnSameSide(const LitPoint& point, const Middle& middle, std::uint
 /// behind a wall, the next one in this fourth.
 std::array<LitPoint, kLightPoints> Finder::find(const CandidateRays& chosen, std::uint32_t s) {
     constexpr std::uint32_t kStratum = kLightCandidates / kLightPoints;
-    Middle middle{{surfels.position[s], vertexNormal(trace.scene(), surfels, s)}, {}};
-    const LitPoint& place = middle.place;
+    SurfelCentre centre{{surfels.position[s], vertexNormal(trace.scene(), surfels, s)}, {}};
     for (std::size_t k = 0; k < kHeights.size(); ++k)
-        middle.raised[k] = raised(place, s, kHeights[k]);
+        centre.raised[k] = raised(centre.point, s, kHeights[k]);
     std::array<LitPoint, kLightCandidates> found;
-    std::ranges::transform(chosen, found.begin(),
-                           [&](const CacheRay& source) { return pointOf(source, place, s); });
+    std::ranges::transform(chosen, found.begin(), [&](const CacheRay& source) {
+        return pointOf(source, centre.point, s);
+    });
     std::ranges::stable_sort(found, {}, &LitPoint::order);
     std::array<LitPoint, kLightPoints> result;
     for (std::uint32_t k = 0; k < kLightPoints; ++k) {
-        result[k] = place;
+        result[k] = centre.point;
         const std::uint32_t first = mixBits(s * kLightPoints + k);
         for (std::uint32_t i = 0; i < kStratum; ++i) {
             const LitPoint& point = found[k * kStratum + (first + i) % kStratum];
-            if (!isOnSameSide(point, middle, s))
+            if (!isOnSameSide(point, centre, s))
                 continue;
             result[k] = point;
             break;

@@ -76,7 +76,7 @@ void forEachAimedSample(const Surfels& surfels, const GatherHits& hits, const Ca
     const CacheKind kind = caches.kind[cache];
     for (std::uint32_t k = hits.aimedBegin[cache]; k < hits.aimedBegin[cache + 1]; ++k) {
         const AimedSample& sample = hits.aimed[k];
-        const SenderView v = viewOf(surfels, points, kind, sample);
+        const SubtendedSolidAngle v = solidAngleOf(surfels, points, kind, sample);
         visit(sample.sender,
               FormFactor{v.transport, v.transport * irradianceShare(kind, v.cosTheta),
                          v.direction * v.transport},

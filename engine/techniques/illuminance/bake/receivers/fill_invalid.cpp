@@ -48,8 +48,8 @@ void append(const Sources& s, Caches& caches) {
     double sum = 0;
     std::array<double, 4> weight;
     for (std::size_t i = 0; i < s.count; ++i) {
-        const double least = std::max(double(s.nearest[0].cost), 1e-30);
-        sum += weight[i] = least / std::max(double(s.nearest[i].cost), least);
+        const double minCost = std::max(double(s.nearest[0].cost), 1e-30);
+        sum += weight[i] = minCost / std::max(double(s.nearest[i].cost), minCost);
     }
     for (std::size_t i = 0; i < s.count; ++i) {
         caches.fillSource.push_back(s.nearest[i].point);

@@ -157,13 +157,13 @@ MeshPoint PatchHits::placeFor(std::uint32_t surfel,
         return sum;
     };
     const float n = float(picked.size());
-    float least = isSeen(surfel, picked) ? sumTo(s.position[surfel], s.normal[surfel]) / n
-                                         : std::numeric_limits<float>::max();
+    float minMean = isSeen(surfel, picked) ? sumTo(s.position[surfel], s.normal[surfel]) / n
+                                           : std::numeric_limits<float>::max();
     MeshPoint best = place;
     for (std::size_t k = 0; k < picked.size(); ++k)
         if (const float mean = sumTo(places[k].position, places[k].normal) / (n - 1);
-            mean < least) {
-            least = mean;
+            mean < minMean) {
+            minMean = mean;
             best = hits[picked[k]].point;
         }
     return best;

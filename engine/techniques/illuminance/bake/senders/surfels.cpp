@@ -72,23 +72,23 @@ std::uint32_t countPieces(const Mesh& mesh) {
 std::vector<std::uint32_t> minSurfels(const Scene& scene, const std::vector<double>& area,
                                       std::uint32_t target) {
     constexpr std::uint32_t kLampSurfels = 64;
-    std::vector<std::uint32_t> least(scene.assets->meshes.size()), users(least.size());
+    std::vector<std::uint32_t> required(scene.assets->meshes.size()), users(required.size());
     for (std::size_t i = 0; i < area.size(); ++i)
         if (area[i] > 0) {
             ++users[scene.instances[i].mesh];
-            std::uint32_t& n = least[scene.instances[i].mesh]; // 2 marks a lamp
+            std::uint32_t& n = required[scene.instances[i].mesh]; // 2 marks a lamp
             n = std::max(n, emits(scene.materialOf(scene.instances[i])) ? 2U : 1U);
         }
     std::uint64_t all = 0;
-    for (std::size_t m = 0; m < least.size(); ++m)
-        if (least[m] > 1) {
-            least[m] = kLampSurfels * countPieces(scene.assets->meshes[m]);
-            all += std::uint64_t(least[m]) * users[m];
+    for (std::size_t m = 0; m < required.size(); ++m)
+        if (required[m] > 1) {
+            required[m] = kLampSurfels * countPieces(scene.assets->meshes[m]);
+            all += std::uint64_t(required[m]) * users[m];
         }
     if (all > target / 4)
-        for (std::uint32_t& n : least)
+        for (std::uint32_t& n : required)
             n = n > 1 ? std::max(1U, std::uint32_t(n * std::uint64_t(target / 4) / all)) : n;
-    return least;
+    return required;
 }
 
 /// Weight of a cell: its area times its density.
@@ -147,7 +147,7 @@ std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, const std::vector<
             sum[scene.instances[i].mesh] += area[i] * density[scene.instances[i].mesh];
             ++users[scene.instances[i].mesh];
         }
-    const std::vector<std::uint32_t> least = minSurfels(scene, area, target);
+    const std::vector<std::uint32_t> required = minSurfels(scene, area, target);
     const std::vector<bool> twoSided = twoSidedMeshes(scene);
     const auto sides = [&](std::size_t m) { return twoSided[m] ? 2U : 1U; };
     std::vector<bool> fixed(sum.size());
@@ -163,8 +163,8 @@ std::vector<std::uint32_t> surfelsPerMesh(const Scene& scene, const std::vector<
             if (users[m] > 0 && !fixed[m]) {
                 const double mean = sum[m] / users[m] / sides(m);
                 counts[m] = std::uint32_t(std::lround(std::max(left, 0.) * mean / total));
-                if (counts[m] < least[m]) {
-                    counts[m] = least[m];
+                if (counts[m] < required[m]) {
+                    counts[m] = required[m];
                     fixed[m] = changed = true;
                 }
             }

@@ -102,9 +102,9 @@ HWY_INLINE void lightOf(Floats d, const Link* links, std::size_t count, const gl
                         V* light) {
     gatherLight(d, links, radiosity, light);
     if (count < hn::Lanes(d)) {
-        const auto own = hn::FirstN(d, count);
+        const auto mask = hn::FirstN(d, count);
         for (int k = 0; k < 4; ++k)
-            light[k] = hn::IfThenElseZero(own, light[k]);
+            light[k] = hn::IfThenElseZero(mask, light[k]);
     }
 }
 
@@ -120,13 +120,13 @@ HWY_INLINE bool isBlack(Floats d, const V* light) {
 template <int Bands, int Chroma, Orders Of>
 constexpr auto sumsOf() {
     struct {
-        int at[3 * Bands * Bands] = {}, count = 0;
+        int index[3 * Bands * Bands] = {}, count = 0;
     } sums;
     for (int l = 0; l < Bands; ++l)
         for (int m = -l; m <= l; ++m) {
             const int i = l * (l + 1) + m, colours = l < Chroma ? 3 : 1;
             for (int k = 0; contains(Of, m) && k < colours; ++k)
-                sums.at[sums.count++] = l < Chroma ? 3 * i + k : 2 * Chroma * Chroma + i;
+                sums.index[sums.count++] = l < Chroma ? 3 * i + k : 2 * Chroma * Chroma + i;
         }
     return sums;
 }
@@ -153,12 +153,12 @@ HWY_INLINE void addTotals(const V* sum, float* total) {
     constexpr int kFours = (kSums.count + 3) / 4;
     float out[4 * kFours];
     unrolled<0, kFours>([&](auto k) LIMN_UNROLLED {
-        constexpr auto kAt = [](int i) { return kSums.at[std::min(i, kSums.count - 1)]; };
+        constexpr auto kAt = [](int i) { return kSums.index[std::min(i, kSums.count - 1)]; };
         sumLanes(sum[kAt(4 * k)], sum[kAt(4 * k + 1)], sum[kAt(4 * k + 2)], sum[kAt(4 * k + 3)],
                  out + 4 * k);
     });
     for (int i = 0; i < kSums.count; ++i)
-        total[kSums.at[i]] += out[i];
+        total[kSums.index[i]] += out[i];
 }
 
 /// Adds the sums of some links, all in registers: of the orders First at once, then of the orders

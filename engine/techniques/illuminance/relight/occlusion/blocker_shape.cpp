@@ -57,11 +57,11 @@ Welded weld(const Mesh& mesh, const Bounds& box) {
     std::vector<std::uint32_t> place(mesh.positions.size());
     for (std::size_t i = 0; i < place.size(); ++i) {
         const glm::vec3 cell = glm::round((mesh.positions[i] - box.lower) / (kOnePlace * w.size));
-        const auto [at, fresh] = places.try_emplace({int(cell.x), int(cell.y), int(cell.z)},
-                                                    std::uint32_t(w.position.size()));
+        const auto [known, fresh] = places.try_emplace({int(cell.x), int(cell.y), int(cell.z)},
+                                                       std::uint32_t(w.position.size()));
         if (fresh)
             w.position.push_back(mesh.positions[i]);
-        place[i] = at->second;
+        place[i] = known->second;
     }
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
         const auto k = mesh.triangle(t);
@@ -76,16 +76,16 @@ Welded weld(const Mesh& mesh, const Bounds& box) {
 /// The plane through `p` as a side with the whole mesh behind it; std::nullopt where the mesh lies
 /// on both sides of the plane, or only in it.
 std::optional<Side> sideThrough(const Welded& w, glm::vec3 p, glm::vec3 normal) {
-    float least = 1e30f, most = -1e30f;
+    float minHeight = 1e30f, maxHeight = -1e30f;
     for (const glm::vec3 q : w.position) {
         const float height = glm::dot(normal, q - p);
-        least = std::min(least, height);
-        most = std::max(most, height);
+        minHeight = std::min(minHeight, height);
+        maxHeight = std::max(maxHeight, height);
     }
     const float near = kOnePlane * w.size;
-    if ((most > near) == (least < -near))
+    if ((maxHeight > near) == (minHeight < -near))
         return std::nullopt;
-    if (most > near)
+    if (maxHeight > near)
         normal = -normal;
     return Side{normal, glm::dot(normal, p), true};
 }

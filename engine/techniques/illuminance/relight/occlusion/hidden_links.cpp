@@ -107,8 +107,8 @@ HWY_INLINE V3 turn(const glm::mat3& m, V3 v) {
 }
 /// fields[i * stride + offset], …
 HWY_INLINE V gather(const float* fields, U i, std::uint32_t stride, std::uint32_t offset) {
-    const U at = i * hn::Set(Uints(), stride) + hn::Set(Uints(), offset);
-    return hn::GatherIndex(Floats(), fields, hn::BitCast(Ints(), at));
+    const U index = i * hn::Set(Uints(), stride) + hn::Set(Uints(), offset);
+    return hn::GatherIndex(Floats(), fields, hn::BitCast(Ints(), index));
 }
 HWY_INLINE V3 gather3(const float* fields, U i, std::uint32_t stride, std::uint32_t offset) {
     return {gather(fields, i, stride, offset), gather(fields, i, stride, offset + 1),
@@ -170,10 +170,10 @@ struct ConeReader {
         const Ints di;
         const U known = hn::Max(links, hn::Set(d, first));
         const std::uint16_t* halfs = caches.shCoefficients.data() + first * coefficients;
-        const auto pairs = [&](std::size_t at) { // two bytes are all that they are aligned to
+        const auto pairs = [&](std::size_t offset) { // two bytes are all that they are aligned to
             const U bytes = (known - hn::Set(d, first)) *
                             hn::Set(d, std::uint32_t(coefficients * sizeof *halfs));
-            return hn::GatherOffset(d, reinterpret_cast<const std::uint32_t*>(halfs + at),
+            return hn::GatherOffset(d, reinterpret_cast<const std::uint32_t*>(halfs + offset),
                                     hn::BitCast(di, bytes));
         };
         return coneOf(hn::GatherIndex(d, caches.shNode.data(), hn::BitCast(di, known)), pairs(0),
@@ -434,17 +434,17 @@ struct Finder {
 
     /// Heights of the sides above caches.
     struct Heights {
-        V of[BlockerShape::kMaxSides];
+        V height[BlockerShape::kMaxSides];
         M within; ///< the cache is below all of them
     };
     Heights heightsOf(const Links& l) const {
         Heights h;
-        V least = set(0);
+        V minimum = set(0);
         for (std::size_t i = 0; i < count; ++i) {
-            h.of[i] = set(sides[i].offset) - dot(set(sides[i].normal), l.from);
-            least = hn::Min(least, h.of[i]);
+            h.height[i] = set(sides[i].offset) - dot(set(sides[i].normal), l.from);
+            minimum = hn::Min(minimum, h.height[i]);
         }
-        h.within = hn::Ge(least, set(0));
+        h.within = hn::Ge(minimum, set(0));
         return h;
     }
 
@@ -456,7 +456,7 @@ struct Finder {
         M enters = hn::FirstN(d, 0), leaves = enters; // through a side that is there
         for (std::size_t i = 0; i < count; ++i) {
             const Range before = through;
-            bound(dot(set(sides[i].normal), way), heights.of[i], through);
+            bound(dot(set(sides[i].normal), way), heights.height[i], through);
             if (shape.closed || shape.triangles)
                 continue;
             const M there = hn::FirstN(d, sides[i].there ? hn::Lanes(d) : 0),

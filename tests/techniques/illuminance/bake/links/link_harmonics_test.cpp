@@ -190,7 +190,8 @@ SeenByLink seenByLink(const Room& r, const Caches& caches, std::uint32_t c) {
             ++result.rays;
         }
     for (std::uint32_t k = r.hits.aimedBegin[c]; k < r.hits.aimedBegin[c + 1]; ++k) {
-        const SenderView v = viewOf(r.set.surfels, r.points, caches.kind[c], r.hits.aimed[k]);
+        const SubtendedSolidAngle v =
+            solidAngleOf(r.set.surfels, r.points, caches.kind[c], r.hits.aimed[k]);
         add(r.hits.aimed[k].sender, v.direction, v.transport / r.hits.aimed[k].scale / 2,
             v.transport, v.cosTheta);
         ++result.aimed;
