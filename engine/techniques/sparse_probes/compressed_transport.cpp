@@ -54,12 +54,12 @@ private:
     }
     int widestAxis(Ids ids) const {
         int widest = 0;
-        float most = -1;
+        float maxExtent = -1;
         for (int axis = 0; axis < 6; ++axis) {
             const auto [low, high] =
                 std::ranges::minmax(ids, {}, [&](std::uint32_t r) { return at(r, axis); });
-            if (const float extent = at(high, axis) - at(low, axis); extent > most)
-                widest = axis, most = extent;
+            if (const float extent = at(high, axis) - at(low, axis); extent > maxExtent)
+                widest = axis, maxExtent = extent;
         }
         return widest;
     }
@@ -158,12 +158,12 @@ using Ranks = std::array<glm::vec3, kMaxClusterReceivers>; // a value for each r
 void addProbe(const ClusterView& cluster, std::size_t p, std::span<const float> probes,
               Ranks& sum) {
     const std::size_t n = cluster.coefficients;
-    const float* of = &probes[std::size_t(cluster.probes[p]) * 3 * n];
+    const float* probe = &probes[std::size_t(cluster.probes[p]) * 3 * n];
     for (std::size_t k = 0; k < cluster.rank; ++k) {
         const std::uint16_t* row = cluster.rightRow(k, p);
         glm::vec3 part(0);
         for (std::size_t c = 0; c < n; ++c)
-            part += halfToFloat(row[c]) * glm::vec3(of[c], of[n + c], of[2 * n + c]);
+            part += halfToFloat(row[c]) * glm::vec3(probe[c], probe[n + c], probe[2 * n + c]);
         sum[k] += part;
     }
 }

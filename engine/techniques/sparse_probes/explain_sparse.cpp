@@ -37,8 +37,8 @@ Weights radianceWeights(const SparseBake& bake, const std::vector<float>& basis,
     const float share = 4 * std::numbers::pi_v<float> / float(rays);
     Weights weights(bake.receivers.size(), glm::vec3(0));
     for (std::size_t p = 0; p < bake.probes.size(); ++p) {
-        const glm::vec3* of = &probes[p * count];
-        if (std::all_of(of, of + count, [](glm::vec3 w) { return w == glm::vec3(0); }))
+        const glm::vec3* probe = &probes[p * count];
+        if (std::all_of(probe, probe + count, [](glm::vec3 w) { return w == glm::vec3(0); }))
             continue;
         for (std::size_t q = 0; q < rays; ++q) {
             const std::uint32_t hit = bake.hits[p * rays + q];
@@ -46,7 +46,7 @@ Weights radianceWeights(const SparseBake& bake, const std::vector<float>& basis,
                 continue;
             glm::vec3 sum(0);
             for (std::size_t i = 0; i < count; ++i)
-                sum += of[i] * basis[q * count + i];
+                sum += probe[i] * basis[q * count + i];
             weights[hit] += sum * share;
         }
     }
@@ -59,8 +59,9 @@ glm::dvec3 skyValue(const SparseBake& bake, const ProbeRadiance& sky, const Weig
     glm::dvec3 sum(0);
     for (std::size_t p = 0; p < bake.probes.size(); ++p)
         for (std::size_t i = 0; i < count; ++i) {
-            const float* at = &sky[p * 3 * count + i];
-            sum += glm::dvec3(probes[p * count + i] * glm::vec3(at[0], at[count], at[2 * count]));
+            const float* radiance = &sky[p * 3 * count + i];
+            sum += glm::dvec3(probes[p * count + i] *
+                              glm::vec3(radiance[0], radiance[count], radiance[2 * count]));
         }
     return sum;
 }
@@ -79,9 +80,9 @@ ReadingWeights weigh(const SparseBake& bake, const IndirectField& field,
     const std::vector<std::uint32_t>& texels = bake.receivers.texel;
     for (const FieldReading::Entry& entry : reading.entries) {
         if (!entry.grid) {
-            const auto at = std::ranges::lower_bound(texels, entry.index);
-            if (at != texels.end() && *at == entry.index)
-                w.receivers[std::size_t(at - texels.begin())] +=
+            const auto found = std::ranges::lower_bound(texels, entry.index);
+            if (found != texels.end() && *found == entry.index)
+                w.receivers[std::size_t(found - texels.begin())] +=
                     entry.weight[0] * kRadiancePerIrradiance;
             continue;
         }

@@ -45,11 +45,11 @@ std::vector<std::array<std::uint8_t, 3>> findWalls(const TraceScene& trace, cons
     parallelRanges(walls.size(), 256, progress, "probes", [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c)
             for (std::size_t side = 0; side < 3; ++side) {
-                const glm::uvec3 at = lattice.place(std::uint32_t(c));
-                const glm::ivec3 next = glm::ivec3(at) + kSides[side];
+                const glm::uvec3 cell = lattice.place(std::uint32_t(c));
+                const glm::ivec3 next = glm::ivec3(cell) + kSides[side];
                 if (isInside(lattice, next))
                     walls[c][side] = trace.blocked(
-                        lattice.centre(at), lattice.centre(glm::uvec3(next)), TraceMask::Static);
+                        lattice.centre(cell), lattice.centre(glm::uvec3(next)), TraceMask::Static);
             }
     });
     return walls;
@@ -64,13 +64,13 @@ void forSeenCells(const TraceScene& trace, const Lattice& lattice,
         const glm::vec3 from = trace.clearOf(positions[r], normals[r]);
         const glm::ivec3 corner(glm::floor((from - lattice.lower) / lattice.cell - 0.5f));
         for (int k = 0; k < 8; ++k) {
-            const glm::ivec3 at = corner + glm::ivec3(k & 1, k >> 1 & 1, k >> 2);
-            if (!isInside(lattice, at) || airOf[lattice.index(glm::uvec3(at))] != kSolid)
+            const glm::ivec3 cell = corner + glm::ivec3(k & 1, k >> 1 & 1, k >> 2);
+            if (!isInside(lattice, cell) || airOf[lattice.index(glm::uvec3(cell))] != kSolid)
                 continue;
-            const glm::vec3 middle = lattice.centre(glm::uvec3(at));
+            const glm::vec3 middle = lattice.centre(glm::uvec3(cell));
             if (glm::dot(middle - from, normals[r]) > 0 &&
                 !trace.blocked(from, middle, TraceMask::Static))
-                look(lattice.index(glm::uvec3(at)));
+                look(lattice.index(glm::uvec3(cell)));
         }
     }
 }
@@ -162,9 +162,9 @@ std::vector<glm::vec3> removeDensest(std::vector<glm::vec3> points, float radius
                 density[i] += share(i, k);
     });
     while (points.size() > left) {
-        const float most = *std::ranges::max_element(density) * (1 - kRounding);
+        const float threshold = *std::ranges::max_element(density) * (1 - kRounding);
         std::size_t densest = points.size() - 1;
-        while (density[densest] < most)
+        while (density[densest] < threshold)
             --densest;
         for (std::size_t i = 0; i < points.size(); ++i)
             density[i] -= share(i, densest);

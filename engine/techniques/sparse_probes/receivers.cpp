@@ -46,10 +46,10 @@ ReceiverPoints pointsOf(const Scene& scene, const Receivers& r) {
     parallelRanges(r.size(), 1024, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const Instance& instance = scene.instances[r.instance[i]];
-            const WorldPoint at = worldPoint(scene, instance, {r.triangle[i], r.barycentric[i]});
+            const WorldPoint point = worldPoint(scene, instance, {r.triangle[i], r.barycentric[i]});
             const glm::vec3 normal = shadingNormal(scene.meshOf(instance), instance, r.triangle[i],
-                                                   r.barycentric[i], at.normal);
-            points.position[i] = at.position;
+                                                   r.barycentric[i], point.normal);
+            points.position[i] = point.position;
             points.normal[i] = r.back[i] ? -normal : normal;
         }
     });
@@ -68,11 +68,11 @@ std::uint32_t ReceiverAt::operator()(const Scene& scene, const Hit& hit) const {
         return kNone;
     const Bilinear lookup = bilinearAt(m_layout, scene, hit);
     std::uint32_t found = kNone;
-    float most = 0;
+    float maxWeight = 0;
     for (int k = 0; k < 4; ++k)
         if (const std::uint32_t r = m_receiverOf[lookup.texel[k]];
-            r != kNone && lookup.weight[k] > most) {
-            most = lookup.weight[k];
+            r != kNone && lookup.weight[k] > maxWeight) {
+            maxWeight = lookup.weight[k];
             found = r;
         }
     return found;

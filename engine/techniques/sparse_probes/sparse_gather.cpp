@@ -115,9 +115,9 @@ void addTransposed(const SparseBake& bake, std::span<const glm::vec3> receivers,
 
 glm::vec3 cellCentre(const IndirectField& field, std::uint32_t cell) {
     const glm::uvec3 size = field.gridSize,
-                     at(cell % size.x, cell / size.x % size.y, cell / size.x / size.y);
+                     coordinates(cell % size.x, cell / size.x % size.y, cell / size.x / size.y);
     return field.gridBounds.lower +
-           (glm::vec3(at) + 0.5f) * field.gridBounds.size() / glm::vec3(size);
+           (glm::vec3(coordinates) + 0.5f) * field.gridBounds.size() / glm::vec3(size);
 }
 
 void fillGrid(const SparseBake& bake, const ProbeRadiance& probes, IndirectField& field) {

@@ -97,13 +97,14 @@ OverlayData unseenOverlay(const SparseBake& bake) {
     out.height = bake.lightmap.height;
     out.texels.resize(std::size_t(out.width) * out.height);
     out.finer = fineBlocks(bake.lightmap);
-    const float most = unseen.empty() ? 0 : std::ranges::max(unseen), scale = std::max(most, 1e-6f);
+    const float maximum = unseen.empty() ? 0 : std::ranges::max(unseen),
+                scale = std::max(maximum, 1e-6f);
     for (std::size_t r = 0; r < unseen.size(); ++r)
         out.texels[bake.receivers.texel[r]] = packColor(viridis(unseen[r] / scale));
     out.legend.title = "Share of the view that no probe sees";
     for (int k = 4; k >= 0; --k)
-        out.legend.entries.push_back(
-            {packColor(viridis(float(k) / 4)), fmt::format("{:.3g} %", 100 * most * float(k) / 4)});
+        out.legend.entries.push_back({packColor(viridis(float(k) / 4)),
+                                      fmt::format("{:.3g} %", 100 * maximum * float(k) / 4)});
     const double mean = std::accumulate(unseen.begin(), unseen.end(), 0.) /
                         double(std::max<std::size_t>(unseen.size(), 1));
     out.legend.notes = {fmt::format("{:.2g} % on average", 100 * mean),
@@ -114,7 +115,7 @@ OverlayData unseenOverlay(const SparseBake& bake) {
 
 /// A receiver with the probes that light it.
 struct PickedReceiver {
-    WorldPoint at; ///< on the side that receives
+    WorldPoint point; ///< on the side that receives
     NearProbes near;
     float weights = 0; ///< their sum
 };
@@ -122,11 +123,11 @@ struct PickedReceiver {
 PickedReceiver pickedReceiver(const SparseBake& bake, const Scene& scene, std::uint32_t r) {
     const Receivers& all = bake.receivers;
     PickedReceiver picked;
-    picked.at =
+    picked.point =
         worldPoint(scene, scene.instances[all.instance[r]], {all.triangle[r], all.barycentric[r]});
     if (all.back[r])
-        picked.at.normal = -picked.at.normal;
-    picked.near = nearestProbes(bake.probes, picked.at.position);
+        picked.point.normal = -picked.point.normal;
+    picked.near = nearestProbes(bake.probes, picked.point.position);
     picked.weights = std::accumulate(picked.near.weight.begin(), picked.near.weight.end(), 0.f);
     return picked;
 }
@@ -134,7 +135,7 @@ PickedReceiver pickedReceiver(const SparseBake& bake, const Scene& scene, std::u
 OverlayData receiverOverlay(const SparseBake& bake, const Scene& scene, std::uint32_t r) {
     const PickedReceiver picked = pickedReceiver(bake, scene, r);
     const float radius = ballRadius(bake), width = bake.receivers.width[r];
-    const glm::vec3 from = picked.at.position + picked.at.normal * (0.1f * width);
+    const glm::vec3 from = picked.point.position + picked.point.normal * (0.1f * width);
     OverlayData out;
     out.marks.push_back({.position = from,
                          .radius = std::max(width, 0.5f * radius),
@@ -228,21 +229,21 @@ OverlayData rowOverlay(const SparseBake& bake, const Scene& scene, std::uint32_t
         way.push_back(directions[k]);
     const std::vector<float> basis = relightBasis(way, int(bake.sparse.bands));
     std::vector<std::vector<float>> lobes(bake.probes.size()); // [1/sr]
-    float most = 0;
+    float maximum = 0;
     for (std::size_t p = 0; p < bake.probes.size(); ++p) {
-        const std::span of = std::span(row).subspan(p * count, count);
-        if (std::ranges::all_of(of, [](float w) { return w == 0; }))
+        const std::span coefficients = std::span(row).subspan(p * count, count);
+        if (std::ranges::all_of(coefficients, [](float w) { return w == 0; }))
             continue;
         for (std::uint32_t k = 0; k < directions.count; ++k) {
-            lobes[p].push_back(
-                std::inner_product(of.begin(), of.end(), basis.begin() + k * count, 0.f));
-            most = std::max(most, std::abs(lobes[p].back()));
+            lobes[p].push_back(std::inner_product(coefficients.begin(), coefficients.end(),
+                                                  basis.begin() + k * count, 0.f));
+            maximum = std::max(maximum, std::abs(lobes[p].back()));
         }
     }
     const PickedReceiver picked = pickedReceiver(bake, scene, r);
     const float radius = ballRadius(bake), width = bake.receivers.width[r];
     OverlayData out;
-    out.marks.push_back({.position = picked.at.position + picked.at.normal * (0.1f * width),
+    out.marks.push_back({.position = picked.point.position + picked.point.normal * (0.1f * width),
                          .radius = std::max(width, 0.5f * radius),
                          .color = packColor(glm::vec3(1)),
                          .shape = MarkShape::Ring});
@@ -251,16 +252,16 @@ OverlayData rowOverlay(const SparseBake& bake, const Scene& scene, std::uint32_t
         float longest = 0;
         for (std::size_t k = 0; k < lobes[p].size(); ++k) {
             longest = std::max(longest, std::abs(lobes[p][k]));
-            color[k] = lobes[p][k] < 0 ? kNegativeLight : viridis(lobes[p][k] / most);
+            color[k] = lobes[p][k] < 0 ? kNegativeLight : viridis(lobes[p][k] / maximum);
         }
         if (longest > 0)
-            addLobe({bake.probes[p], kLobeScale * radius * longest / most}, directions, lobes[p],
+            addLobe({bake.probes[p], kLobeScale * radius * longest / maximum}, directions, lobes[p],
                     color, out.marks);
     }
     out.legend.title = fmt::format("Transport to texel {}", r);
     for (int k = 4; k >= 1; --k)
         out.legend.entries.push_back(
-            {packColor(viridis(float(k) / 4)), fmt::format("{:.3g}", most * float(k) / 4)});
+            {packColor(viridis(float(k) / 4)), fmt::format("{:.3g}", maximum * float(k) / 4)});
     out.legend.entries.push_back({packColor(kNegativeLight), "below zero: few bands ring"});
     out.legend.notes = {"Irradiance that the texel gets per radiance and solid angle from each "
                         "side of a probe; lobes are as long as that"};
@@ -277,11 +278,11 @@ OverlayData negativeOverlay(const SparseBake& bake, const ProbeRadiance* light) 
     std::vector<glm::vec3> irradiance;
     gatherReceivers(bake, *light, NotNegative::Nothing, irradiance);
     double bright = 0;
-    float least = 0;
+    float minimum = 0;
     std::size_t below = 0;
     for (const glm::vec3 e : irradiance) {
         bright += double(std::max(luminance(e), 0.f));
-        least = std::min(least, luminance(e));
+        minimum = std::min(minimum, luminance(e));
         below += luminance(e) < 0 ? 1 : 0;
     }
     const float mean = float(bright / double(std::max<std::size_t>(irradiance.size(), 1))),
@@ -298,8 +299,8 @@ OverlayData negativeOverlay(const SparseBake& bake, const ProbeRadiance* light) 
     out.legend.entries.push_back(
         {packColor(kNegativeLight),
          fmt::format("less than none: {} of {} texels", below, irradiance.size())});
-    out.legend.notes = {
-        fmt::format("The least is {:.3g} lux, {:.2g} % of the mean", least, 100 * least / middle)};
+    out.legend.notes = {fmt::format("The least is {:.3g} lux, {:.2g} % of the mean", minimum,
+                                    100 * minimum / middle)};
     return out;
 }
 
@@ -342,7 +343,7 @@ std::vector<OverlayLine> describeReceiver(const SparseBake& bake, const Scene& s
     std::vector<OverlayLine> lines = {
         {Style::Plain,
          fmt::format("Texel {}, {:.3g} m wide", receiver, bake.receivers.width[receiver])},
-        {Style::Plain, placeText(scene.origin, picked.at.position)},
+        {Style::Plain, placeText(scene.origin, picked.point.position)},
         {Style::Plain, fmt::format("{:.3g} % unseen", 100 * bake.transport.unseen[receiver]),
          "Share of what the texel sees that none of its probes sees"},
         {Style::Separator, ""},
@@ -352,7 +353,7 @@ std::vector<OverlayLine> describeReceiver(const SparseBake& bake, const Scene& s
             {Style::Plain,
              fmt::format("{:5.1f} %  probe {}, {:.3g} m away",
                          100 * picked.near.weight[k] / picked.weights, picked.near.probe[k],
-                         glm::distance(bake.probes[picked.near.probe[k]], picked.at.position)),
+                         glm::distance(bake.probes[picked.near.probe[k]], picked.point.position)),
              "Weight of the probe where all of them see the same"});
     return lines;
 }
@@ -361,7 +362,7 @@ std::optional<std::uint32_t> nearestReceiver(const SparseBake& bake, const Spars
                                              std::uint32_t receiver) {
     const Receivers &mine = bake.receivers, &theirs = other.receivers;
     std::optional<std::uint32_t> nearest;
-    float least = std::numeric_limits<float>::max();
+    float minDistance = std::numeric_limits<float>::max();
     for (std::uint32_t r = 0; r < mine.size(); ++r) {
         if (mine.instance[r] != theirs.instance[receiver] || mine.back[r] != theirs.back[receiver])
             continue;
@@ -369,8 +370,8 @@ std::optional<std::uint32_t> nearestReceiver(const SparseBake& bake, const Spars
         const float way = mine.triangle[r] == theirs.triangle[receiver]
                               ? glm::distance(mine.barycentric[r], theirs.barycentric[receiver])
                               : 2;
-        if (way < least) {
-            least = way;
+        if (way < minDistance) {
+            minDistance = way;
             nearest = r;
         }
     }

@@ -139,10 +139,10 @@ NearProbes nearestProbes(std::span<const glm::vec3> probes, glm::vec3 p) {
         const Near next{glm::distance(probes[i], p), i};
         if (count == kMost && !(next < near[count - 1]))
             continue;
-        std::size_t at = count < kMost ? count++ : kMost - 1;
-        for (; at > 0 && next < near[at - 1]; --at)
-            near[at] = near[at - 1];
-        near[at] = next;
+        std::size_t slot = count < kMost ? count++ : kMost - 1;
+        for (; slot > 0 && next < near[slot - 1]; --slot)
+            near[slot] = near[slot - 1];
+        near[slot] = next;
     }
     NearProbes result;
     result.probe.fill(kNoProbe);

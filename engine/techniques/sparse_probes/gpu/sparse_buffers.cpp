@@ -65,24 +65,24 @@ std::vector<std::uint32_t> packTransport(const SparseBake& bake, std::uint32_t b
 /// Appends what the clusters' workgroup reads of cluster `c`.
 GpuCluster appendCluster(const CompressedTransport& t, std::size_t c, std::size_t coefficients,
                          std::vector<std::uint32_t>& words) {
-    const auto at = [&] { return std::uint32_t(words.size()); };
-    GpuCluster out{.receivers = at(),
+    const auto offset = [&] { return std::uint32_t(words.size()); };
+    GpuCluster out{.receivers = offset(),
                    .receiverCount = t.receiverBegin[c + 1] - t.receiverBegin[c],
                    .probeCount = t.probeBegin[c + 1] - t.probeBegin[c],
                    .rank = t.rank[c]};
     words.insert(words.end(), t.receiver.begin() + t.receiverBegin[c],
                  t.receiver.begin() + t.receiverBegin[c + 1]);
-    out.probes = at();
+    out.probes = offset();
     words.insert(words.end(), t.probe.begin() + t.probeBegin[c],
                  t.probe.begin() + t.probeBegin[c + 1]);
     const auto ofRow = [](const std::uint16_t* row, std::size_t length, std::size_t pair) {
         return pairOf(row[2 * pair], 2 * pair + 1 < length ? row[2 * pair + 1] : 0);
     };
-    out.left = at();
+    out.left = offset();
     for (std::size_t p = 0; p < (out.rank + 1U) / 2; ++p)
         for (std::size_t r = 0; r < out.receiverCount; ++r)
             words.push_back(ofRow(&t.left[t.leftBegin[c] + r * out.rank], out.rank, p));
-    out.right = at();
+    out.right = offset();
     for (std::size_t probe = 0; probe < out.probeCount; ++probe)
         for (std::size_t p = 0; p < probeRow(coefficients) / 2; ++p)
             for (std::size_t k = 0; k < out.rank; ++k)
@@ -96,14 +96,16 @@ GpuCluster appendCluster(const CompressedTransport& t, std::size_t c, std::size_
 class BlockMaker {
 public:
     BlockMaker(gpu::Device& device, gpu::StorageMaker& make)
-        : m_most(device.properties.limits.maxStorageBufferRange), m_make(make) {}
+        : m_maxBytes(device.properties.limits.maxStorageBufferRange), m_make(make) {}
 
     std::vector<SparseBlock> receivers(const SparseBake& bake) {
         const std::size_t bytes = probeRow(bake.coefficients()) * kProbesPerReceiver * 2;
         const auto count = std::uint32_t(bake.receivers.size()),
-                   most = std::uint32_t(std::clamp<std::size_t>(m_most / bytes, 1, ~0U));
-        for (std::uint32_t begin = 0; begin < count; begin += std::min(most, count - begin)) {
-            const std::uint32_t end = begin + std::min(most, count - begin);
+                   maxReceivers =
+                       std::uint32_t(std::clamp<std::size_t>(m_maxBytes / bytes, 1, ~0U));
+        for (std::uint32_t begin = 0; begin < count;
+             begin += std::min(maxReceivers, count - begin)) {
+            const std::uint32_t end = begin + std::min(maxReceivers, count - begin);
             add(begin, end, packTransport(bake, begin, end));
         }
         return std::move(m_blocks);
@@ -116,7 +118,7 @@ public:
         for (std::uint32_t c = 0; c < bake.compressed.clusters(); ++c) {
             one.clear();
             GpuCluster cluster = appendCluster(bake.compressed, c, bake.coefficients(), one);
-            if (!words.empty() && (words.size() + one.size()) * sizeof(words[0]) > m_most) {
+            if (!words.empty() && (words.size() + one.size()) * sizeof(words[0]) > m_maxBytes) {
                 add(begin, c, words);
                 words.clear();
                 begin = c;
@@ -138,7 +140,7 @@ private:
         m_blocks.push_back({begin, end, m_make.filled(words, "transport")});
     }
 
-    VkDeviceSize m_most;
+    VkDeviceSize m_maxBytes;
     gpu::StorageMaker& m_make;
     std::vector<SparseBlock> m_blocks;
 };
