@@ -18,8 +18,8 @@ struct ProbeGrid {
     std::uint32_t count() const { return size.x * size.y * size.z; }
     glm::vec3 step() const { return bounds.size() / glm::vec3(size); } ///< [m]
     glm::vec3 position(std::uint32_t probe) const {
-        const glm::uvec3 at(probe % size.x, probe / size.x % size.y, probe / size.x / size.y);
-        return bounds.lower + (glm::vec3(at) + 0.5f) * step();
+        const glm::uvec3 cell(probe % size.x, probe / size.x % size.y, probe / size.x / size.y);
+        return bounds.lower + (glm::vec3(cell) + 0.5f) * step();
     }
     bool operator==(const ProbeGrid&) const = default;
 };

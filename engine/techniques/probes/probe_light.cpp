@@ -23,18 +23,19 @@ constexpr std::uint32_t kPointsOnRectangle = 4; ///< shadow rays from a hit
 
 /// Radiance that a hit sends towards the probe from one origin.
 glm::vec3 radianceOf(const ProbeScene& in, const ProbeLight& light, std::uint32_t origin,
-                     const ProbeHit& hit, const MapPoint& at, std::uint64_t& rays) {
+                     const ProbeHit& hit, const MapPoint& point, std::uint64_t& rays) {
     constexpr float kPi = std::numbers::pi_v<float>;
     if (origin < light.lights) {
         const Light unit = unitLight(in.scene.lights[origin]);
-        return at.albedo / kPi * shadowedLight(in.trace, unit, at.lit, kPointsOnRectangle, rays);
+        return point.albedo / kPi *
+               shadowedLight(in.trace, unit, point.lit, kPointsOnRectangle, rays);
     }
     if (origin == light.emitters())
-        return at.emission;
+        return point.emission;
     if (origin != light.bounced() || in.field.grid.empty())
         return glm::vec3(0);
     const LightmapLayout none; // without it, everything is lit from the grid
-    return at.albedo / kPi *
+    return point.albedo / kPi *
            sampleIrradiance({.field = in.field,
                              .layout = none,
                              .scene = in.scene,
@@ -42,8 +43,8 @@ glm::vec3 radianceOf(const ProbeScene& in, const ProbeLight& light, std::uint32_
                              .triangle = hit.triangle,
                              .u = hit.u,
                              .v = hit.v,
-                             .position = at.lit.position,
-                             .normal = at.lit.normal});
+                             .position = point.lit.position,
+                             .normal = point.lit.normal});
 }
 
 } // namespace
@@ -93,13 +94,13 @@ std::uint64_t lightProbe(const ProbeScene& in, std::uint32_t probe,
             const auto texel = std::uint32_t(t);
             const glm::vec3 direction = in.maps.map.direction(texel);
             const bool sky = hit.instance == ~0U;
-            const MapPoint at = sky ? MapPoint{} : mapPoint(in, probe, texel);
+            const MapPoint point = sky ? MapPoint{} : mapPoint(in, probe, texel);
             float y[kIrradianceBands * kIrradianceBands];
             shBasis(kIrradianceBands, direction, y);
             for (std::size_t o = 0; o < origins.size(); ++o) {
                 glm::vec3 radiance(0);
                 if (!sky)
-                    radiance = radianceOf(in, light, origins[o], hit, at, traced);
+                    radiance = radianceOf(in, light, origins[o], hit, point, traced);
                 else if (origins[o] == light.sky())
                     radiance = skyRadiance(in.scene.sky, direction);
                 if (light.keepsTexels)

@@ -264,8 +264,8 @@ std::optional<std::uint32_t> ProbeSnapshot::nearest(glm::vec3 place) const {
     const ProbeGrid& grid = m_lit.maps.grid;
     if (grid.count() == 0)
         return {};
-    const glm::vec3 at = glm::floor((place - grid.bounds.lower) / grid.step());
-    const glm::uvec3 c(glm::clamp(at, glm::vec3(0), glm::vec3(grid.size - 1U)));
+    const glm::vec3 cell = glm::floor((place - grid.bounds.lower) / grid.step());
+    const glm::uvec3 c(glm::clamp(cell, glm::vec3(0), glm::vec3(grid.size - 1U)));
     return (c.z * grid.size.y + c.y) * grid.size.x + c.x;
 }
 

@@ -57,10 +57,10 @@ void forSeen(const ProbeMaps& maps, const Scene& scene, std::uint32_t probe, con
 /// The probe itself and those beside it, also across edges and corners, that are not in solids.
 std::vector<std::uint32_t> neighbours(const ProbeMaps& maps, std::uint32_t probe) {
     const glm::ivec3 size(maps.grid.size),
-        at(int(probe) % size.x, int(probe) / size.x % size.y, int(probe) / size.x / size.y);
+        cell(int(probe) % size.x, int(probe) / size.x % size.y, int(probe) / size.x / size.y);
     std::vector<std::uint32_t> found;
     for (int k = 0; k < 27; ++k) {
-        const glm::ivec3 c = at + glm::ivec3(k % 3, k / 3 % 3, k / 9) - 1;
+        const glm::ivec3 c = cell + glm::ivec3(k % 3, k / 3 % 3, k / 9) - 1;
         if (c != glm::clamp(c, glm::ivec3(0), size - 1))
             continue;
         const auto p = std::uint32_t((c.z * size.y + c.y) * size.x + c.x);
@@ -80,8 +80,8 @@ OverlayData surfaceOverlay(const ProbeMaps& maps, const Scene& scene, std::uint3
          .radius = 0.2f * std::min({maps.grid.step().x, maps.grid.step().y, maps.grid.step().z}),
          .color = packColor(maps.inSolid[probe] ? kUnknownColor : glm::vec3(1)),
          .shape = MarkShape::Ring});
-    for (const std::uint32_t by : neighbours(maps, probe))
-        forSeen(maps, scene, by, [&](const SeenPoint& p) {
+    for (const std::uint32_t neighbour : neighbours(maps, probe))
+        forSeen(maps, scene, neighbour, [&](const SeenPoint& p) {
             const CellsAbout about = cellsAbout(maps.grid.bounds, maps.grid.size, p.position);
             if (std::ranges::count(about.index, probe) > 0)
                 out.marks.push_back(markAt(p, viridis(valueOf(p))));

@@ -79,12 +79,13 @@ std::uint32_t DeviceProbes::countStale() const {
         m_probeMaps, [&](std::uint32_t edition) { return edition != m_mapEdition; }));
 }
 
-/// Traces the maps of up to `most` probes whose surfaces moved, in turn. Returns these probes.
-std::vector<std::uint32_t> DeviceProbes::traceMaps(const Scene& scene, std::uint32_t most,
+/// Traces the maps of up to `maxProbes` probes whose surfaces moved, in turn. Returns these probes.
+std::vector<std::uint32_t> DeviceProbes::traceMaps(const Scene& scene, std::uint32_t maxProbes,
                                                    const Progress& progress, Work& work) {
     std::vector<std::uint32_t> traced;
     const std::uint32_t count = m_maps.grid.count();
-    for (std::uint32_t k = 0; k < count && traced.size() < most && !progress.cancelled(); ++k) {
+    for (std::uint32_t k = 0; k < count && traced.size() < maxProbes && !progress.cancelled();
+         ++k) {
         const std::uint32_t p = m_next;
         m_next = (m_next + 1) % count;
         if (m_probeMaps[p] == m_mapEdition)
@@ -113,12 +114,12 @@ static GpuProbeHit packHit(const ProbeScene& in, std::uint32_t probe, std::uint3
     out.kind = hit.instance == ~0U ? PROBE_SEES_SKY : PROBE_SEES_SURFACE;
     if (out.kind == PROBE_SEES_SKY)
         return out;
-    const MapPoint at = mapPoint(in, probe, texel);
-    out.position = at.lit.position;
-    out.normal = at.lit.normal;
-    out.albedoRedGreen = glm::packUnorm2x16({at.albedo.r, at.albedo.g});
-    out.albedoBlue = glm::packUnorm2x16({at.albedo.b, 0});
-    out.emission = at.emission;
+    const MapPoint point = mapPoint(in, probe, texel);
+    out.position = point.lit.position;
+    out.normal = point.lit.normal;
+    out.albedoRedGreen = glm::packUnorm2x16({point.albedo.r, point.albedo.g});
+    out.albedoBlue = glm::packUnorm2x16({point.albedo.b, 0});
+    out.emission = point.emission;
     return out;
 }
 
@@ -231,9 +232,11 @@ LightingReport DeviceProbes::update(const LightingInput& input, const Progress& 
     }
     m_lightStale |= m_gpu->updateDirect(m_viewport.shadowedLights());
     work.light = watch.lap();
-    const std::uint32_t most = input.view || countStale() > 0 ? 1 : std::max(input.bounces, 1U);
+    const std::uint32_t maxBounces =
+        input.view || countStale() > 0 ? 1 : std::max(input.bounces, 1U);
     const bool lit = m_lightStale;
-    while (m_lightStale && work.bounces < most && !(work.bounces > 0 && progress.cancelled())) {
+    while (m_lightStale && work.bounces < maxBounces &&
+           !(work.bounces > 0 && progress.cancelled())) {
         m_lightStale = bounce(input.scene, work);
         ++work.bounces;
     }

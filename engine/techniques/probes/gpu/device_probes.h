@@ -47,7 +47,7 @@ private:
         : m_device(device), m_viewport(viewport) {}
 
     bool followScene(const Scene& scene, const ProbeSettings& settings);
-    std::vector<std::uint32_t> traceMaps(const Scene& scene, std::uint32_t most,
+    std::vector<std::uint32_t> traceMaps(const Scene& scene, std::uint32_t maxProbes,
                                          const Progress& progress, Work& work);
     void sendHits(const Scene& scene, const std::vector<std::uint32_t>& probes, bool moved);
     void followReflections(bool wanted);

@@ -65,9 +65,9 @@ GpuProbes::GpuProbes(gpu::Device& device, const ProbeGrid& grid, Octahedron map)
 
 void GpuProbes::createBlocks() {
     const std::uint32_t texels = m_map.texels();
-    const std::size_t most =
+    const std::size_t maxProbes =
         m_device.properties.limits.maxStorageBufferRange / (texels * sizeof(GpuProbeHit));
-    const auto step = std::uint32_t(std::clamp<std::size_t>(most, 1, m_grid.count()));
+    const auto step = std::uint32_t(std::clamp<std::size_t>(maxProbes, 1, m_grid.count()));
     for (std::uint32_t begin = 0; begin < m_grid.count(); begin += step) {
         Block block{.begin = begin, .end = std::min(begin + step, m_grid.count())};
         const VkDeviceSize hits = VkDeviceSize(block.end - begin) * texels;
