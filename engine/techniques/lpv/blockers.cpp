@@ -24,17 +24,17 @@ struct Part {
 template <class Add>
 void split(const Part& part, float longest, int depth, const Add& add) {
     int edge = 0;
-    float most = 0;
+    float maxLength = 0;
     for (int i = 0; i < 3; ++i) {
         const float length =
             glm::distance(part.corner[std::size_t(i)], part.corner[std::size_t((i + 1) % 3)]);
-        if (length > most) {
-            most = length;
+        if (length > maxLength) {
+            maxLength = length;
             edge = i;
         }
     }
     const auto a = std::size_t(edge), b = std::size_t((edge + 1) % 3);
-    if (most <= longest || depth == 0) {
+    if (maxLength <= longest || depth == 0) {
         const auto& [p, q, r] = part.corner;
         add((p + q + r) / 3.f, (part.uv[0] + part.uv[1] + part.uv[2]) / 3.f,
             glm::length(glm::cross(q - p, r - p)) / 2);

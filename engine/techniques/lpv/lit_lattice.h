@@ -12,7 +12,7 @@ namespace limn {
 
 /// A texel of a reflective shadow map as injected.
 struct InjectedTexel {
-    ShownTexel at;
+    ShownTexel surface;
     glm::vec3 flux{0}; ///< that it reflects [W]
 };
 

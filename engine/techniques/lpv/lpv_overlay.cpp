@@ -54,16 +54,16 @@ private:
     std::uint64_t m_count = 0;
 };
 
-/// The brightest cell of each block of step^3 cells, if its flux is above `least`, in the order of
-/// the blocks.
+/// The brightest cell of each block of step^3 cells, if its flux is above `minFlux`, in the order
+/// of the blocks.
 std::vector<std::uint32_t> brightestCells(const Lattice& lattice, std::span<const float> flux,
-                                          float least, std::uint32_t step) {
+                                          float minFlux, std::uint32_t step) {
     const glm::uvec3 blocks = (lattice.size + step - 1U) / step;
     std::vector<std::uint32_t> brightest(std::size_t(blocks.x) * blocks.y * blocks.z, ~0U);
     for (std::uint32_t c = 0; c < lattice.cells(); ++c) {
-        const glm::uvec3 at = lattice.place(c) / step;
-        std::uint32_t& best = brightest[(at.z * blocks.y + at.y) * blocks.x + at.x];
-        if (flux[c] > least && (best == ~0U || flux[c] > flux[best]))
+        const glm::uvec3 block = lattice.place(c) / step;
+        std::uint32_t& best = brightest[(block.z * blocks.y + block.y) * blocks.x + block.x];
+        if (flux[c] > minFlux && (best == ~0U || flux[c] > flux[best]))
             best = c;
     }
     std::erase(brightest, ~0U);
@@ -83,12 +83,12 @@ OverlayData lobeOverlay(const Lattice& lattice, std::uint32_t picked, const char
         flux[c] = luminance(fluxOf(lobeOf(c)));
         total += double(flux[c]);
     }
-    const float least = kLeastFlux * mean.value();
+    const float minFlux = kLeastFlux * mean.value();
     const auto lit = std::ranges::count_if(flux, [](float f) { return f > 0; });
     std::uint32_t step = 1;
-    std::vector<std::uint32_t> cells = brightestCells(lattice, flux, least, step);
+    std::vector<std::uint32_t> cells = brightestCells(lattice, flux, minFlux, step);
     while (cells.size() > kMaxLobes)
-        cells = brightestCells(lattice, flux, least, ++step);
+        cells = brightestCells(lattice, flux, minFlux, ++step);
     if (one)
         cells = {picked};
     const DirectionSet directions(one ? kPickedDots : kDots, true, 0);
@@ -119,7 +119,7 @@ OverlayData lobeOverlay(const Lattice& lattice, std::uint32_t picked, const char
                   "{} of {} lit cells, each the brightest of {} x {} x {}, none below {:.2g} "
                   "W; lobes have the same length, their colour is the cell's flux; pick a "
                   "cell to see it alone",
-                  cells.size(), lit, step, step, step, least),
+                  cells.size(), lit, step, step, step, minFlux),
         fmt::format("Flux of lit cells, {:.3g} W on average; {:.4g} W in all", mean.value(),
                     total)};
     return out;
@@ -179,9 +179,9 @@ std::vector<std::uint32_t> cellsOfBothSides(const LitLattice& lit) {
     std::map<std::uint32_t, std::vector<const ShownTexel*>> texels; // per cell
     for (const InjectedTexel& texel : lit.texels)
         if (luminance(texel.flux) > 0)
-            texels[lattice.index(
-                       lattice.at(texel.at.position + texel.at.normal * (0.5f * lattice.cell)))]
-                .push_back(&texel.at);
+            texels[lattice.index(lattice.at(texel.surface.position +
+                                            texel.surface.normal * (0.5f * lattice.cell)))]
+                .push_back(&texel.surface);
     std::vector<std::uint32_t> found;
     for (const auto& [cell, in] : texels) {
         const std::size_t step = (in.size() + kMostCompared - 1) / kMostCompared;
@@ -201,9 +201,9 @@ OverlayData texelOverlay(const LitLattice& lit) {
     for (const InjectedTexel& texel : lit.texels)
         mean.add(texel.flux);
     for (const InjectedTexel& texel : lit.texels)
-        out.marks.push_back({.position = texel.at.position,
+        out.marks.push_back({.position = texel.surface.position,
                              .radius = kTexelScale * lit.lattice.cell,
-                             .normal = texel.at.normal,
+                             .normal = texel.surface.normal,
                              .color = packColor(lightColor(texel.flux, mean.value()))});
     const std::vector<std::uint32_t> both = cellsOfBothSides(lit);
     for (const std::uint32_t cell : both)
@@ -234,8 +234,8 @@ glm::vec3 fluxOf(const Lobe& lobe) {
 
 float blockedShare(const FaceBlockers& blockers, int axis, glm::ivec3 c) {
     const auto& face = blockers.axis[std::size_t(axis)];
-    const std::size_t at = blockers.cells.at(c);
-    float most = 0;
+    const std::size_t index = blockers.cells.at(c);
+    float maximum = 0;
     for (const float side : {1.f, -1.f}) {
         glm::vec3 d(0);
         d[axis] = side;
@@ -243,10 +243,10 @@ float blockedShare(const FaceBlockers& blockers, int axis, glm::ivec3 c) {
         shBasis(2, d, y);
         float share = 0;
         for (std::size_t i = 0; i < face.size(); ++i)
-            share += face[i][at] * y[i];
-        most = std::max(most, share);
+            share += face[i][index] * y[i];
+        maximum = std::max(maximum, share);
     }
-    return most;
+    return maximum;
 }
 
 const Technique& LpvSnapshot::technique() const {

@@ -22,9 +22,9 @@ constexpr float kAhead = 0.89442719f, kAcross = 0.44721360f; ///< 2 and 1 over s
 constexpr std::size_t kOfAxis[] = {3, 1, 2};                 ///< the harmonic that is x, y or z
 constexpr float kInversePi = std::numbers::inv_pi_v<float>;
 
-Floats load(const std::vector<float>& plane, std::size_t at) {
+Floats load(const std::vector<float>& plane, std::size_t index) {
     Floats v;
-    std::memcpy(&v, plane.data() + at, sizeof v);
+    std::memcpy(&v, plane.data() + index, sizeof v);
     return v;
 }
 
@@ -60,9 +60,9 @@ Faces towardsFaces(const Step& step, float turn, Floats mean, Floats ahead, Floa
 /// Share of the light that passes on its way to the five faces.
 Faces passing(const FaceBlockers& blockers, const Step& step, std::size_t cell) {
     const auto& face = blockers.axis[std::size_t(step.axis)];
-    const std::size_t at = step.up ? cell : cell + blockers.cells.stride(step.axis);
-    Faces share = towardsFaces(step, -1, load(face[0], at), load(face[step.ahead()], at),
-                               load(face[step.second()], at), load(face[step.third()], at));
+    const std::size_t index = step.up ? cell : cell + blockers.cells.stride(step.axis);
+    Faces share = towardsFaces(step, -1, load(face[0], index), load(face[step.ahead()], index),
+                               load(face[step.second()], index), load(face[step.third()], index));
     for (Floats& s : share)
         s = notBelow0(1 - notBelow0(s));
     return share;

@@ -80,10 +80,10 @@ glm::mat4 toClip(const RsmView& view, float unit) {
 /// Integers per unit of a lobe: a power of two by which not even all that a light can send, in one
 /// cell, exceeds 2^30.
 float integersPerUnit(const std::vector<RsmView>& views) {
-    float most = views[0].area() * float(views.size());
+    float largest = views[0].area() * float(views.size());
     if (!views[0].parallel)
-        most = std::min(most, 4 * kPi * float((views.size() + 5) / 6));
-    const float lobe = 1.1f * most * views[0].power * kCosineSlope / kPi;
+        largest = std::min(largest, 4 * kPi * float((views.size() + 5) / 6));
+    const float lobe = 1.1f * largest * views[0].power * kCosineSlope / kPi;
     return lobe > 0 ? std::exp2(std::floor(30 - std::log2(lobe))) : 0;
 }
 
