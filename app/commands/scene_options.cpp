@@ -35,7 +35,9 @@ void addImportOptions(Command& command, ImportOptions& options) {
     command
         .numberOption(
             "--memory",
-            [&options](double gib) { options.memory.most = std::uint64_t(gib * double(1 << 30)); },
+            [&options](double gib) {
+                options.memory.maxBytes = std::uint64_t(gib * double(1 << 30));
+            },
             "Maximum memory for scenes, pictures and bakes [GiB]; default: half of the machine's")
         .within(0.001, 1e6);
     command.flag(

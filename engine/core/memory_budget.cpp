@@ -19,10 +19,10 @@ std::string bytesText(std::uint64_t bytes) {
 }
 
 Result<void> MemoryBudget::allow(const std::string& what, std::uint64_t needed) const {
-    if (needed <= most)
+    if (needed <= maxBytes)
         return {};
     return fail(fmt::format("{} would need {} of memory, {} are allowed (--memory)", what,
-                            bytesText(needed), bytesText(most)));
+                            bytesText(needed), bytesText(maxBytes)));
 }
 
 } // namespace limn

@@ -17,7 +17,7 @@ std::string bytesText(std::uint64_t bytes);
 /// Maximum memory that a job may use. Readers check it before they allocate an amount that a file
 /// or an option can make large.
 struct MemoryBudget {
-    std::uint64_t most = halfOfMemory(); ///< [bytes]
+    std::uint64_t maxBytes = halfOfMemory(); ///< [bytes]
 
     /// Fails if `needed` exceeds the budget: "{what} would need 7.5 GiB of memory, 4 GiB are
     /// allowed (--memory)".

@@ -35,7 +35,7 @@ public:
     /// Exists for the duration of one call of the body.
     struct Body {
         LoopOrder& loop;
-        explicit Body(LoopOrder& of) : loop(of) { acquired(loop.m_started); }
+        explicit Body(LoopOrder& order) : loop(order) { acquired(loop.m_started); }
         ~Body() { released(loop.m_ended); }
         Body(const Body&) = delete;
         Body& operator=(const Body&) = delete;
@@ -43,11 +43,11 @@ public:
 
 private:
 #if defined(__SANITIZE_THREAD__)
-    static void acquired(char& at) {
-        __tsan_acquire(&at);
+    static void acquired(char& flag) {
+        __tsan_acquire(&flag);
     }
-    static void released(char& at) {
-        __tsan_release(&at);
+    static void released(char& flag) {
+        __tsan_release(&flag);
     }
 #else
     static void acquired(char&) {}

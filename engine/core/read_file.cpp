@@ -22,7 +22,7 @@ tl::unexpected<Error> unreadable(int reason) {
 
 } // namespace
 
-Result<std::string> readFile(const std::string& path, std::uint64_t most) {
+Result<std::string> readFile(const std::string& path, std::uint64_t maxBytes) {
     // Without O_NONBLOCK, opening a pipe waits for a writer. Regular files ignore the flag.
     const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     struct stat status {};
@@ -31,8 +31,8 @@ Result<std::string> readFile(const std::string& path, std::uint64_t most) {
     if (!S_ISREG(status.st_mode))
         return fail("not a regular file");
     const auto size = std::uint64_t(status.st_size);
-    if (size > most)
-        return fail(fmt::format("its {} bytes are more than {}", size, most));
+    if (size > maxBytes)
+        return fail(fmt::format("its {} bytes are more than {}", size, maxBytes));
     std::string bytes(std::size_t(size), '\0');
     std::size_t done = 0;
     while (done < bytes.size()) {

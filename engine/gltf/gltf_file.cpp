@@ -254,7 +254,7 @@ Result<GltfFile> readGltfFile(const std::string& path, FileReach reach,
     LoadState state;
     state.folder = fs::path(path).parent_path().string();
     state.reach = reach;
-    state.maxBytes = memory.most;
+    state.maxBytes = memory.maxBytes;
     state.files = externalFiles(*json);
     const auto images = json->find("images");
     state.imageProblems.resize(images == json->end() ? 0 : images->size());

@@ -92,7 +92,7 @@ bool fits(const Technique& technique, const Scene& scene, const BakeSettings& se
     Scene finer = scene;
     finer.bake = settings;
     return residentMemory() + technique.precomputation->predict(finer, stored).working <=
-           memory.most;
+           memory.maxBytes;
 }
 
 } // namespace

@@ -65,13 +65,14 @@ TEST(BakeToError, EndsWhereMoreTexelsAreOfNoUse) {
 TEST(BakeToError, EndsWhereMemoryDoes) {
     const Scene scene = *litRoom(4000, 4000);
     const TraceScene trace(scene);
-    MemoryBudget memory{.most = residentMemory() +
-                                kBaking.precomputation->predict(scene, false).working + (1 << 20)};
+    MemoryBudget memory{.maxBytes = residentMemory() +
+                                    kBaking.precomputation->predict(scene, false).working +
+                                    (1 << 20)};
     const auto made = bakeToError(kBaking, trace, goal(scene, 1e-4), {}, nullptr, memory);
     ASSERT_TRUE(made) << made.error().message;
     EXPECT_EQ(made->end, MeasuredBake::End::Memory);
     EXPECT_EQ(made->bake->settings().lightmapCaches, 4000U);
-    memory.most = 1;
+    memory.maxBytes = 1;
     const auto none = bakeToError(kBaking, trace, goal(scene, 1e-4), {}, nullptr, memory);
     ASSERT_FALSE(none);
     EXPECT_NE(none.error().message.find("--memory"), std::string::npos) << none.error().message;

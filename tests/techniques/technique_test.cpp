@@ -142,7 +142,7 @@ TEST(Techniques, PrecomputedDataIsReadAsItWasWrittenAndKnowsItsScene) {
         ASSERT_TRUE(coarse) << coarse.error().message;
         EXPECT_EQ((*coarse)->settings().lightmapCaches, fewer.lightmapCaches);
         EXPECT_NE((*coarse)->hash(), data.hash());
-        const auto tooLarge = p->prepare(trace, {.memory = {.most = 1}}, {});
+        const auto tooLarge = p->prepare(trace, {.memory = {.maxBytes = 1}}, {});
         EXPECT_FALSE(tooLarge);
         EXPECT_GT(p->predict(scene, false).working, 1U);
     }

@@ -354,7 +354,7 @@ TEST_F(BakeFile, OnlyItsSceneTellsWhetherIndicesAreThoseOfAScene) {
 // Also where a chunk only claims to be a terabyte.
 TEST_F(BakeFile, WhatWouldNeedMoreMemoryThanAllowedIsRefused) {
     ASSERT_TRUE(writeBake(path, baked));
-    const Result<Bake> refused = readBake(path, {.most = 1000});
+    const Result<Bake> refused = readBake(path, {.maxBytes = 1000});
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("--memory"), std::string::npos)
         << refused.error().message;
