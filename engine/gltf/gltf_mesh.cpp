@@ -18,7 +18,7 @@ namespace {
 /// An attribute's name in glTF and the numbers of components it may have.
 struct Attribute {
     const char* name;
-    std::uint32_t least, most;
+    std::uint32_t minComponents, maxComponents;
 };
 
 } // namespace
@@ -33,7 +33,8 @@ static Result<AccessorValues> readAttribute(const tinygltf::Model& model,
     Result<AccessorValues> values = readNumbers(model, found->second);
     if (!values)
         return fail(fmt::format("{}: {}", attribute.name, values.error().message));
-    if (values->components < attribute.least || values->components > attribute.most)
+    if (values->components < attribute.minComponents ||
+        values->components > attribute.maxComponents)
         return fail(fmt::format("{}: accessors[{}] has {} components", attribute.name,
                                 found->second, values->components));
     if (values->count() != count)

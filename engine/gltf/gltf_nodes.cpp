@@ -143,10 +143,11 @@ static Result<std::vector<int>> parentsOf(const Model& model) {
     // not.
     std::vector<std::size_t> walk(parents.size(), 0);
     for (std::size_t i = 0; i < parents.size(); ++i)
-        for (int at = int(i); at >= 0; at = parents[std::size_t(at)]) {
-            std::size_t& mark = walk[std::size_t(at)];
+        for (int ancestor = int(i); ancestor >= 0; ancestor = parents[std::size_t(ancestor)]) {
+            std::size_t& mark = walk[std::size_t(ancestor)];
             if (mark == i + 1)
-                return fail(fmt::format("nodes[{}].children: the node is its own ancestor", at));
+                return fail(
+                    fmt::format("nodes[{}].children: the node is its own ancestor", ancestor));
             if (mark != 0)
                 break;
             mark = i + 1;

@@ -190,8 +190,8 @@ static Problem checkValue(const Json& value, const Field& field, const std::stri
             return problem(path, map ? "not an object" : "not an array");
         std::size_t i = 0;
         for (const auto& [key, index] : value.items()) {
-            const std::string at = map ? path + "." + key : fmt::format("{}[{}]", path, i++);
-            if (Problem p = checkIndex(index, at, root, field.into))
+            const std::string itemPath = map ? path + "." + key : fmt::format("{}[{}]", path, i++);
+            if (Problem p = checkIndex(index, itemPath, root, field.into))
                 return p;
         }
         return {};
@@ -219,14 +219,15 @@ static Problem checkFields(const Json& object, std::span<const Field> fields,
     if (!object.is_object())
         return problem(path.empty() ? "JSON" : path, "not an object");
     for (const Field& field : fields) {
-        const std::string at = fmt::format("{}{}{}", path, path.empty() ? "" : ".", field.name);
+        const std::string fieldPath =
+            fmt::format("{}{}{}", path, path.empty() ? "" : ".", field.name);
         const auto value = object.find(field.name);
         if (value == object.end()) {
             if (field.required)
-                return problem(at, "missing");
+                return problem(fieldPath, "missing");
             continue;
         }
-        if (Problem p = checkValue(*value, field, at, root))
+        if (Problem p = checkValue(*value, field, fieldPath, root))
             return p;
     }
     const auto extensions = object.find("extensions");
@@ -250,11 +251,11 @@ static Problem checkNames(const Json& root, const char* key) {
 
 static Problem checkVersion(const Json& root) {
     const Json& asset = root["asset"];
-    const std::string version = asset["version"], least = asset.value("minVersion", "2.0");
+    const std::string version = asset["version"], minVersion = asset.value("minVersion", "2.0");
     if (!version.starts_with("2."))
         return problem("asset.version", fmt::format("glTF {} is not supported", version));
-    if (least != "2.0")
-        return problem("asset.minVersion", fmt::format("glTF {} is not supported", least));
+    if (minVersion != "2.0")
+        return problem("asset.minVersion", fmt::format("glTF {} is not supported", minVersion));
     return {};
 }
 

@@ -28,17 +28,17 @@ std::uint64_t countOf(const tinygltf::Model& model, int index) {
         return 0;
     const tinygltf::Accessor& accessor = model.accessors[std::size_t(index)];
     const auto view = std::size_t(accessor.bufferView);
-    const std::uint64_t most = accessor.bufferView < 0 ? kMaxZeros
-                               : view < model.bufferViews.size()
-                                   ? model.bufferViews[view].byteLength
-                                   : 0;
-    return accessor.count <= most ? accessor.count : 0;
+    const std::uint64_t maxCount = accessor.bufferView < 0 ? kMaxZeros
+                                   : view < model.bufferViews.size()
+                                       ? model.bufferViews[view].byteLength
+                                       : 0;
+    return accessor.count <= maxCount ? accessor.count : 0;
 }
 
 std::uint64_t countOf(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                       const char* attribute) {
-    const auto at = primitive.attributes.find(attribute);
-    return at == primitive.attributes.end() ? 0 : countOf(model, at->second);
+    const auto found = primitive.attributes.find(attribute);
+    return found == primitive.attributes.end() ? 0 : countOf(model, found->second);
 }
 
 struct Part {
@@ -76,11 +76,12 @@ Part nodesOf(const tinygltf::Model& model) {
             !instancing->second.Has("attributes"))
             continue;
         const tinygltf::Value& attributes = instancing->second.Get("attributes");
-        std::uint64_t most = 0;
+        std::uint64_t maxCount = 0;
         for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"})
             if (attributes.Has(name) && attributes.Get(name).IsInt())
-                most = std::max(most, countOf(model, attributes.Get(name).GetNumberAsInt()));
-        nodes += most;
+                maxCount =
+                    std::max(maxCount, countOf(model, attributes.Get(name).GetNumberAsInt()));
+        nodes += maxCount;
     }
     return {fmt::format("its {} nodes and instances", nodes), nodes * kNodeBytes};
 }
