@@ -358,19 +358,20 @@ static Result<void> readEntry(const Json& json, const std::string& path, Documen
 static Result<void> checkTree(const Document& document) {
     std::map<ObjectId, ObjectId> walk; // node -> the walk that met it first
     for (const auto& [id, object] : document.objects) {
-        ObjectId at = id;
-        while (at != 0) {
-            const Node* node = findObjectAs<Node>(document, at);
-            if (!node && at == id)
+        ObjectId ancestor = id;
+        while (ancestor != 0) {
+            const Node* node = findObjectAs<Node>(document, ancestor);
+            if (!node && ancestor == id)
                 break; // not a node
             if (!node)
-                return fail(fmt::format("object {}.node.parent: {} is no node", id, at));
-            const auto [met, first] = walk.emplace(at, id);
+                return fail(fmt::format("object {}.node.parent: {} is no node", id, ancestor));
+            const auto [met, first] = walk.emplace(ancestor, id);
             if (!first && met->second == id)
-                return fail(fmt::format("object {}.node.parent: the node is its own ancestor", at));
+                return fail(
+                    fmt::format("object {}.node.parent: the node is its own ancestor", ancestor));
             if (!first)
                 break;
-            at = node->parent;
+            ancestor = node->parent;
         }
     }
     return {};

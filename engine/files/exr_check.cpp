@@ -147,11 +147,12 @@ constexpr std::int64_t kMaxPerByte = 1100;
 /// ImfPizCompressor.cpp and ImfHuf.cpp.
 static Result<void> checkPiz(ByteReader chunk) {
     constexpr std::uint32_t kBitmap = 8192, kCodes = 65537;
-    const auto least = chunk.number<std::uint16_t>(), most = chunk.number<std::uint16_t>();
-    if (most >= kBitmap)
+    const auto minNonZero = chunk.number<std::uint16_t>(),
+               maxNonZero = chunk.number<std::uint16_t>();
+    if (maxNonZero >= kBitmap)
         return fail("values: out of range");
-    if (least <= most)
-        chunk.take(std::size_t(most - least) + 1);
+    if (minNonZero <= maxNonZero)
+        chunk.take(std::size_t(maxNonZero - minNonZero) + 1);
     const auto length = chunk.number<std::int32_t>();
     if (!chunk.ok || length < 0 || std::size_t(length) > chunk.rest.size())
         return fail("codes: exceed the chunk");

@@ -21,13 +21,13 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::uint32_t kMaxSide = 1 << 16; ///< of a texture that is read [texels]
 
-std::uint32_t wordAt(Bytes file, std::size_t at) {
-    return std::uint32_t(file[at]) | std::uint32_t(file[at + 1]) << 8 |
-           std::uint32_t(file[at + 2]) << 16 | std::uint32_t(file[at + 3]) << 24;
+std::uint32_t wordAt(Bytes file, std::size_t offset) {
+    return std::uint32_t(file[offset]) | std::uint32_t(file[offset + 1]) << 8 |
+           std::uint32_t(file[offset + 2]) << 16 | std::uint32_t(file[offset + 3]) << 24;
 }
 
-std::uint64_t longAt(Bytes file, std::size_t at) {
-    return wordAt(file, at) | std::uint64_t(wordAt(file, at + 4)) << 32;
+std::uint64_t longAt(Bytes file, std::size_t offset) {
+    return wordAt(file, offset) | std::uint64_t(wordAt(file, offset + 4)) << 32;
 }
 
 std::uint32_t headerWord(Bytes file, Ktx2Word word) {
@@ -144,22 +144,22 @@ Result<Ktx2Shape> shapeOf(Bytes file) {
     return shape;
 }
 
-float finiteHalf(Bytes texels, std::size_t at, bool& finite) {
-    const auto half = std::uint16_t(texels[at] | texels[at + 1] << 8);
+float finiteHalf(Bytes texels, std::size_t offset, bool& finite) {
+    const auto half = std::uint16_t(texels[offset] | texels[offset + 1] << 8);
     finite = finite && (half & 0x7c00) != 0x7c00;
     return halfToFloat(half);
 }
 
 glm::vec4 texelAt(Bytes texels, Ktx2Format format, std::size_t i, bool& finite) {
-    const std::size_t at = i * ktx2TexelBytes(format);
+    const std::size_t offset = i * ktx2TexelBytes(format);
     if (format == Ktx2Format::Rgb9e5)
-        return {unpackRgb9e5(wordAt(texels, at)), 1};
+        return {unpackRgb9e5(wordAt(texels, offset)), 1};
     glm::vec4 texel;
     for (std::size_t c = 0; c < 4; ++c) {
         if (format == Ktx2Format::Rgba16f) {
-            texel[int(c)] = finiteHalf(texels, at + 2 * c, finite);
+            texel[int(c)] = finiteHalf(texels, offset + 2 * c, finite);
         } else {
-            texel[int(c)] = std::bit_cast<float>(wordAt(texels, at + 4 * c));
+            texel[int(c)] = std::bit_cast<float>(wordAt(texels, offset + 4 * c));
             finite = finite && std::isfinite(texel[int(c)]);
         }
     }
