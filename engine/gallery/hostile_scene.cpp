@@ -72,8 +72,8 @@ private:
         return {m_random.number() * m_room.x, m_random.number() * m_room.y,
                 m_random.number() * m_room.z};
     }
-    glm::vec3 color(double most) {
-        return glm::vec3(dvec3(m_random.number(), m_random.number(), m_random.number()) * most);
+    glm::vec3 color(double maximum) {
+        return glm::vec3(dvec3(m_random.number(), m_random.number(), m_random.number()) * maximum);
     }
     bool isThing(double share) { return m_random.chance(share); }
 
@@ -113,11 +113,11 @@ private:
         return std::uint32_t(m_assets.meshes.size() - 1);
     }
 
-    /// Adds a node at `at`, in units of the room.
-    void addNode(std::uint32_t mesh, dvec3 at, Transform t, bool dynamic) {
+    /// Adds a node at `position`, in units of the room.
+    void addNode(std::uint32_t mesh, dvec3 position, Transform t, bool dynamic) {
         Node node;
         node.name = fmt::format("Object {}", m_nodes.size() + 1);
-        t.translation = at * m_size + m_offset;
+        t.translation = position * m_size + m_offset;
         if (m_scaledByNode)
             t.scale *= float(m_size);
         node.transform = t;
@@ -217,10 +217,10 @@ private:
                 t.scale = glm::vec3(dvec3(logBetween(0.3, 2), logBetween(0.3, 2), 1));
             if (isThing(0.1))
                 t.scale.x = -t.scale.x;
-            dvec3 at = inRoom();
+            dvec3 position = inRoom();
             if (isThing(0.3)) // through a wall, or flush with it
-                at[m_random.whole(0, 2)] = isThing(0.5) ? 0 : m_random.between(-0.1, 0.1);
-            addNode(mesh, at, t, isThing(0.08));
+                position[m_random.whole(0, 2)] = isThing(0.5) ? 0 : m_random.between(-0.1, 0.1);
+            addNode(mesh, position, t, isThing(0.08));
         }
     }
 
@@ -238,10 +238,10 @@ private:
                 return placed * glm::vec4(p, 1);
             }
         }
-        dvec3 at = inRoom();
+        dvec3 position = inRoom();
         if (isThing(0.1))
-            at[m_random.whole(0, 2)] = m_random.between(-0.3, 0);
-        return toWorld(document.origin, at * m_size + m_offset);
+            position[m_random.whole(0, 2)] = m_random.between(-0.3, 0);
+        return toWorld(document.origin, position * m_size + m_offset);
     }
 
     void addLights(const Document& document) {

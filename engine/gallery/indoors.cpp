@@ -183,8 +183,8 @@ void addFurniture(SceneMaker& m, Box room, int count, double floor) {
     for (int i = 0; i < count; ++i) {
         const dvec3 size{m.random.between(0.3, 1.2), m.random.between(0.3, 0.9),
                          m.random.between(0.3, 1.2)};
-        const dvec3 at{m.random.between(0.2, 0.8), 0, m.random.between(0.2, 0.8)};
-        dvec3 lower = room.at(at.x, 0, at.z) - size / 2.0;
+        const dvec3 fractions{m.random.between(0.2, 0.8), 0, m.random.between(0.2, 0.8)};
+        dvec3 lower = room.at(fractions.x, 0, fractions.z) - size / 2.0;
         lower.y = floor;
         m.addThing({lower, lower + size}, m.random.chance(0.5) ? m.random.between(-1, 1) : 0);
     }
@@ -287,11 +287,11 @@ static void addTable(SceneMaker& m, Box room) {
                      m.random.between(0.5, 1)};
     const double leg = m.random.between(0.02, 0.06), top = m.random.between(0.01, 0.05);
     const dvec3 share{m.random.between(0.1, 0.9), 0, m.random.between(0.1, 0.9)};
-    const dvec3 at = share * (room.size() - size);
-    m.addThing({at + dvec3(0, size.y - top, 0), at + size});
+    const dvec3 corner = share * (room.size() - size);
+    m.addThing({corner + dvec3(0, size.y - top, 0), corner + size});
     for (const double x : {0.0, size.x - leg})
         for (const double z : {0.0, size.z - leg})
-            m.addThing({at + dvec3(x, 0, z), at + dvec3(x + leg, size.y - top, z + leg)});
+            m.addThing({corner + dvec3(x, 0, z), corner + dvec3(x + leg, size.y - top, z + leg)});
 }
 
 void makeFurnishedBox(SceneMaker& m) {
@@ -329,14 +329,14 @@ void makeBlinds(SceneMaker& m) {
     const double deep = pitch * m.random.between(0.5, 1), tilt = m.random.between(-0.4, 0.4);
     const bool thin = m.random.chance(0.3);
     for (int k = 0; k < count; ++k) {
-        Transform at;
-        at.translation = glm::vec3(room.at(0.5, 0, 1) - dvec3(0, 0, 0.02 + deep / 2));
-        at.translation.y = float(hole.lower.y + pitch * (k + 0.5));
-        at.rotation = turnBy(tilt, {1, 0, 0});
+        Transform transform;
+        transform.translation = glm::vec3(room.at(0.5, 0, 1) - dvec3(0, 0, 0.02 + deep / 2));
+        transform.translation.y = float(hole.lower.y + pitch * (k + 0.5));
+        transform.rotation = turnBy(tilt, {1, 0, 0});
         const dvec3 half(width / 2, thin ? 0.001 : 0.004, deep / 2);
         Mesh slat;
         addBox(slat, -half, half);
-        m.add(std::move(slat), FirstThing, at);
+        m.add(std::move(slat), FirstThing, transform);
     }
     addFurniture(m, room, m.random.whole(0, 3), 0);
     addSunThrough(m, room, window);
@@ -381,8 +381,8 @@ void makeDoorAjar(SceneMaker& m) {
 static void addShapedLamp(SceneMaker& m, Box room, int shape) {
     const dvec3 share{m.random.between(0.35, 0.65), m.random.between(0.74, 0.86),
                       m.random.between(0.35, 0.65)}; // clear of the camera
-    Transform at;
-    at.translation = glm::vec3(room.at(share.x, share.y, share.z));
+    Transform transform;
+    transform.translation = glm::vec3(room.at(share.x, share.y, share.z));
     Mesh mesh;
     double area = 1;
     if (shape == 0) { // sphere
@@ -397,7 +397,7 @@ static void addShapedLamp(SceneMaker& m, Box room, int shape) {
         const double r = m.random.between(0.01, 0.05), half = m.random.between(0.3, 0.8);
         addTurned(mesh, dvec3(0),
                   {{{0, -half}, {r, -half}}, {{r, -half}, {r, half}}, {{r, half}, {0, half}}}, 10);
-        at.rotation = turnBy(1, {0, 0, 1});
+        transform.rotation = turnBy(1, {0, 0, 1});
         area = 4 * std::numbers::pi * r * half;
     } else { // panel that hangs, or a sign on the wall at the lower z
         const dvec2 half{m.random.between(0.1, 0.6), m.random.between(0.05, 0.4)};
@@ -405,14 +405,14 @@ static void addShapedLamp(SceneMaker& m, Box room, int shape) {
                 {-half.x, half.y, 0});
         mesh.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
         if (shape == 2)
-            at.rotation = turnBy(1, {1, 0, 0}); // its front looks down
+            transform.rotation = turnBy(1, {1, 0, 0}); // its front looks down
         else
-            at.translation.z = float(room.lower.z + 0.02);
+            transform.translation.z = float(room.lower.z + 0.02);
         area = 4 * half.x * half.y;
     }
     const double nits = m.random.between(10, 60) / area;
     const glm::vec3 color = m.lightColor();
-    m.add(std::move(mesh), m.addLamp(color * float(nits), shape == 3), at);
+    m.add(std::move(mesh), m.addLamp(color * float(nits), shape == 3), transform);
 }
 
 void makeLamps(SceneMaker& m) {

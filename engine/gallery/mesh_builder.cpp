@@ -85,12 +85,12 @@ void addRing(Mesh& mesh, dvec2 inner, dvec2 outer, double y0, double y1, unsigne
 void addSheet(Mesh& mesh, int nu, int nv, bool closed,
               const std::function<dvec3(double, double)>& point) {
     const int columns = nu + 1, rows = nv + 1;
-    const auto at = [&](int i, int j) { return std::size_t(j * columns + i); };
+    const auto index = [&](int i, int j) { return std::size_t(j * columns + i); };
     std::vector<dvec3> positions(std::size_t(columns * rows)), normals(positions.size(), dvec3(0));
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i) {
             const double u = closed && i == nu ? 0 : double(i) / nu;
-            positions[at(i, j)] = rounded(point(u, double(j) / nv));
+            positions[index(i, j)] = rounded(point(u, double(j) / nv));
         }
     const auto first = std::uint32_t(mesh.positions.size());
     const auto addTriangle = [&](std::size_t a, std::size_t b, std::size_t c) {
@@ -104,11 +104,11 @@ void addSheet(Mesh& mesh, int nu, int nv, bool closed,
     };
     for (int j = 0; j < nv; ++j)
         for (int i = 0; i < nu; ++i) {
-            addTriangle(at(i, j), at(i + 1, j), at(i + 1, j + 1));
-            addTriangle(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+            addTriangle(index(i, j), index(i + 1, j), index(i + 1, j + 1));
+            addTriangle(index(i, j), index(i + 1, j + 1), index(i, j + 1));
         }
     for (int j = 0; closed && j < rows; ++j)
-        normals[at(0, j)] = normals[at(nu, j)] = normals[at(0, j)] + normals[at(nu, j)];
+        normals[index(0, j)] = normals[index(nu, j)] = normals[index(0, j)] + normals[index(nu, j)];
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const bool used =
             glm::length(normals[i]) > 0; // a pole keeps vertices that no triangle uses

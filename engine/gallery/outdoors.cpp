@@ -92,9 +92,9 @@ void makeColonnade(SceneMaker& m) {
         Mesh column;
         addTurned(column, dvec3(0),
                   {{{radius, -0.01}, {radius, height / 2}, {radius, height + 0.01}}}, sides);
-        Transform at;
-        at.translation = glm::vec3(dvec3((k + 0.5) * bay, 0, 0));
-        m.add(std::move(column), FirstThing, at);
+        Transform transform;
+        transform.translation = glm::vec3(dvec3((k + 0.5) * bay, 0, 0));
+        m.add(std::move(column), FirstThing, transform);
     }
     addSun(m, {m.random.between(-0.7, 0.7), -1});
     if (m.random.chance(0.6))
