@@ -224,11 +224,12 @@ Result<std::unique_ptr<Device>> createDevice(const DeviceDesc& desc) {
 }
 
 Result<void> Device::checkStorageBuffers(std::uint32_t needed) const {
-    const std::uint32_t most = mostStorageBuffers(properties.limits);
-    return most < needed ? fail(fmt::format("{}: {} storage buffers can be bound at once, {} are "
-                                            "needed",
-                                            properties.deviceName, most, needed))
-                         : Result<void>();
+    const std::uint32_t maxBuffers = mostStorageBuffers(properties.limits);
+    return maxBuffers < needed
+               ? fail(fmt::format("{}: {} storage buffers can be bound at once, {} are "
+                                  "needed",
+                                  properties.deviceName, maxBuffers, needed))
+               : Result<void>();
 }
 
 void Device::watchValidation() {

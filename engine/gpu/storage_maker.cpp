@@ -14,13 +14,13 @@ static constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT 
                                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 
 bool StorageMaker::fits(VkDeviceSize bytes, const char* name) {
-    const VkDeviceSize most = m_device.properties.limits.maxStorageBufferRange;
-    if (bytes > most && error.empty())
+    const VkDeviceSize maxBytes = m_device.properties.limits.maxStorageBufferRange;
+    if (bytes > maxBytes && error.empty())
         error = fmt::format("{}: the {} of this bake take {:.1f} MiB, more than the {:.1f} MiB "
                             "that the device can bind; {}",
                             m_device.properties.deviceName, name, double(bytes) / (1 << 20),
-                            double(most) / (1 << 20), m_advice);
-    return bytes <= most;
+                            double(maxBytes) / (1 << 20), m_advice);
+    return bytes <= maxBytes;
 }
 
 Buffer StorageMaker::filledWith(std::span<const std::byte> bytes, const char* name) {

@@ -101,12 +101,12 @@ bool Swapchain::resize(std::uint32_t newWidth, std::uint32_t newHeight) {
     m_device.waitIdle();
     VK_CHECK(vkQueueWaitIdle(m_device.queue));
     retireImages();
-    const std::uint32_t most = caps.maxImageCount ? caps.maxImageCount : ~0u;
+    const std::uint32_t maxImages = caps.maxImageCount ? caps.maxImageCount : ~0u;
     const VkSwapchainKHR old = m_swapchain;
     const VkSwapchainCreateInfoKHR info{
         .sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
         .surface = m_surface,
-        .minImageCount = std::min(std::max(caps.minImageCount, kFramesInFlight + 1), most),
+        .minImageCount = std::min(std::max(caps.minImageCount, kFramesInFlight + 1), maxImages),
         .imageFormat = format,
         .imageColorSpace = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR,
         .imageExtent = {width, height},

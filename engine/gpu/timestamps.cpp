@@ -13,23 +13,24 @@ void writeTimestamp(VkCommandBuffer cmd, VkQueryPool pool, std::uint32_t query) 
     memoryBarrier(cmd, kAllWrites, kAllReads);
 }
 
-Timestamps::Timestamps(Device& device, std::uint32_t most) : m_device(&device), m_most(most + 1) {
+Timestamps::Timestamps(Device& device, std::uint32_t maxSteps)
+    : m_device(&device), m_maxQueries(maxSteps + 1) {
     const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                      .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                     .queryCount = m_most};
+                                     .queryCount = m_maxQueries};
     VkQueryPool pool = VK_NULL_HANDLE;
     VK_CHECK(vkCreateQueryPool(device.device, &info, nullptr, &pool));
     m_pool = QueryPool(device, pool);
 }
 
 void Timestamps::begin(VkCommandBuffer cmd) {
-    vkCmdResetQueryPool(cmd, m_pool.handle, 0, m_most);
+    vkCmdResetQueryPool(cmd, m_pool.handle, 0, m_maxQueries);
     m_count = 0;
     mark(cmd);
 }
 
 void Timestamps::mark(VkCommandBuffer cmd) {
-    assert(m_count < m_most);
+    assert(m_count < m_maxQueries);
     writeTimestamp(cmd, m_pool.handle, m_count++);
 }
 

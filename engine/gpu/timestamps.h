@@ -16,7 +16,7 @@ void writeTimestamp(VkCommandBuffer cmd, VkQueryPool pool, std::uint32_t query);
 /// Measures the GPU time of each step of one command buffer.
 class Timestamps {
 public:
-    Timestamps(Device& device, std::uint32_t most); ///< `most`: maximum number of steps
+    Timestamps(Device& device, std::uint32_t maxSteps); ///< `maxSteps`: maximum number of steps
 
     void begin(VkCommandBuffer cmd);
     /// Ends a step at the time when all previously recorded work is done.
@@ -27,7 +27,7 @@ public:
 private:
     Device* m_device;
     QueryPool m_pool;
-    std::uint32_t m_most, m_count = 0;
+    std::uint32_t m_maxQueries, m_count = 0;
 };
 
 } // namespace limn::gpu
