@@ -42,15 +42,15 @@ inline constexpr AboutNormal kLightBelow{kBelowC0, -kBelowC1};
 
 /// The function's value for coefficients `c`. T: float for one colour, glm::vec3 for three.
 template <class T>
-T valueAbout(glm::vec3 n, AboutNormal of, const T* c) {
-    return c[0] * of.first + (c[3] * n.x + c[1] * n.y + c[2] * n.z) * of.second;
+T valueAbout(glm::vec3 n, AboutNormal function, const T* c) {
+    return c[0] * function.first + (c[3] * n.x + c[1] * n.y + c[2] * n.z) * function.second;
 }
 
 /// Adds the function's factors, times `amount`, to the first four of `c`.
 template <class T>
-void addAbout(glm::vec3 n, AboutNormal of, T amount, T* c) {
-    c[0] += amount * of.first;
-    amount *= of.second;
+void addAbout(glm::vec3 n, AboutNormal function, T amount, T* c) {
+    c[0] += amount * function.first;
+    amount *= function.second;
     c[1] += amount * n.y;
     c[2] += amount * n.z;
     c[3] += amount * n.x;

@@ -18,8 +18,8 @@ std::array<float, kMaxBands> windowedFactors(const std::array<float, kMaxBands>&
     // To first order a lobe is itself such a blur, with the t that yields its last band; the window
     // only adds the rest. Below 0.001 the last band is negligible and needs no window.
     const float last = std::max(s[std::size_t(bands - 1)], 1e-3f);
-    const float own = -std::log(last) / float(bands * (bands - 1));
-    const float t = std::max(kMirrorBlur[std::size_t(bands)] - own, 0.f);
+    const float blur = -std::log(last) / float(bands * (bands - 1));
+    const float t = std::max(kMirrorBlur[std::size_t(bands)] - blur, 0.f);
     std::array<float, kMaxBands> windowed{};
     for (int l = 0; l < bands; ++l)
         windowed[std::size_t(l)] = s[std::size_t(l)] * std::exp(-t * float(l * (l + 1)));

@@ -18,10 +18,10 @@ struct NearestPoint::Query {
     void offer(const Near& near) {
         if (near.point == leftOut || (found == best.size() && !(near < best.back())))
             return;
-        std::size_t at = found < best.size() ? found++ : found - 1;
-        for (; at > 0 && near < best[at - 1]; --at)
-            best[at] = best[at - 1];
-        best[at] = near;
+        std::size_t slot = found < best.size() ? found++ : found - 1;
+        for (; slot > 0 && near < best[slot - 1]; --slot)
+            best[slot] = best[slot - 1];
+        best[slot] = near;
     }
     bool mayHold(float distance2) const {
         return found < best.size() || distance2 <= best.back().cost;

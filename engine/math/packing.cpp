@@ -22,11 +22,11 @@ std::uint32_t packRgb9e5(glm::vec3 color) {
     constexpr float kMaximum = 65408; // 511/512 2^16
     for (int c = 0; c < 3; ++c)
         color[c] = color[c] > 0 ? std::min(color[c], kMaximum) : 0.f;
-    const float most = std::max({color.x, color.y, color.z});
+    const float maximum = std::max({color.x, color.y, color.z});
     int exponent = -15; // of the step's 2^9 multiple: values lie below 2^exponent
-    if (most > 0)
-        exponent = std::max(std::ilogb(most) + 1, exponent);
-    if (std::lround(std::ldexp(most, 9 - exponent)) == 512)
+    if (maximum > 0)
+        exponent = std::max(std::ilogb(maximum) + 1, exponent);
+    if (std::lround(std::ldexp(maximum, 9 - exponent)) == 512)
         ++exponent;
     const auto mantissa = [&](float v) {
         return std::uint32_t(std::lround(std::ldexp(v, 9 - exponent)));
