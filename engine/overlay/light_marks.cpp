@@ -38,14 +38,14 @@ glm::vec3 lightHue(glm::vec3 light) {
 
 void addLobe(const LobeShape& lobe, const DirectionSet& directions, std::span<const float> value,
              std::span<const glm::vec3> color, std::vector<OverlayMark>& marks) {
-    float most = 0;
+    float maximum = 0;
     for (const float v : value)
-        most = std::max(most, std::abs(v));
-    if (!(most > 0))
+        maximum = std::max(maximum, std::abs(v));
+    if (!(maximum > 0))
         return;
     const float spread = dotSize(directions);
     for (std::uint32_t k = 0; k < directions.count; ++k) {
-        const float r = std::abs(value[k]) / most * lobe.reach;
+        const float r = std::abs(value[k]) / maximum * lobe.reach;
         OverlayMark m;
         m.position = lobe.position + directions[k] * r;
         m.radius = spread * std::max(r, 0.05f * lobe.reach);
