@@ -65,10 +65,10 @@ void uploadMarchedRadiance(gpu::Device& device, const MarchedMaps& maps, const G
     assert(maps.probes() == to.probes && maps.side == to.side);
     const VkCommandBuffer cmd = device.begin("radiance of probes");
     gpu::memoryBarrier(cmd, gpu::kAllReads, gpu::kTransferWrite);
-    VkDeviceSize at = 0;
+    VkDeviceSize offset = 0;
     for (const std::vector<glm::vec3>& level : maps.radiance) {
-        gpu::updateBuffer(device, cmd, to.radiance, at, std::as_bytes(std::span(level)));
-        at += level.size() * sizeof(glm::vec3);
+        gpu::updateBuffer(device, cmd, to.radiance, offset, std::as_bytes(std::span(level)));
+        offset += level.size() * sizeof(glm::vec3);
     }
     device.submit(cmd);
 }

@@ -10,11 +10,12 @@ namespace limn {
 /// Sets `kept`. Growing the number of places frees all of them.
 void KeptLights::makeRoom(std::uint32_t lights) {
     const VkDeviceSize perLight = std::max<std::size_t>(m_points, 1) * sizeof(float),
-                       most = std::min<VkDeviceSize>(
+                       maxBytes = std::min<VkDeviceSize>(
                            kMaxBytes, m_device.properties.limits.maxStorageBufferRange);
-    kept = std::uint32_t(std::min<VkDeviceSize>(lights, most / perLight));
+    kept = std::uint32_t(std::min<VkDeviceSize>(lights, maxBytes / perLight));
     if (!unit || kept > m_places.size()) {
-        const VkDeviceSize room = std::min<VkDeviceSize>(std::max(2 * kept, 1U), most / perLight);
+        const VkDeviceSize room =
+            std::min<VkDeviceSize>(std::max(2 * kept, 1U), maxBytes / perLight);
         m_places.assign(room, {});
         unit = {m_device,
                 {.size = std::max<VkDeviceSize>(room, 1) * perLight,

@@ -70,8 +70,8 @@ GpuNearTriangle makeTriangle(const Scene& scene, const LightmapLayout& layout, S
     std::uint32_t normal[3];
     for (std::size_t k = 0; k < 3; ++k) {
         p[k] = glm::vec3(instance.toWorld * glm::vec4(mesh.positions[corners[k]], 1));
-        const glm::vec2 at(k == 1 ? 1 : 0, k == 2 ? 1 : 0);
-        normal[k] = packNormal(shadingNormal(mesh, instance, s.triangle, at, front));
+        const glm::vec2 barycentric(k == 1 ? 1 : 0, k == 2 ? 1 : 0);
+        normal[k] = packNormal(shadingNormal(mesh, instance, s.triangle, barycentric, front));
     }
     const auto uvOf = [&](std::size_t k) { return uv[split[3 * s.triangle + k]]; };
     // A mirrored instance has its front on the clockwise side.

@@ -48,8 +48,8 @@ void NearSurfaces::prepare() {
         return;
     const auto nodes = std::as_bytes(std::span(geometry.nodes)),
                triangles = std::as_bytes(std::span(geometry.triangles));
-    const std::size_t most = m_device.properties.limits.maxStorageBufferRange;
-    if (std::max(nodes.size(), triangles.size()) > most)
+    const std::size_t maxBytes = m_device.properties.limits.maxStorageBufferRange;
+    if (std::max(nodes.size(), triangles.size()) > maxBytes)
         return refuse(fmt::format("{} triangles are more than this device can bind",
                                   geometry.triangles.size()));
     gpu::Uploader uploader(m_device);

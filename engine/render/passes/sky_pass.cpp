@@ -45,14 +45,14 @@ void SkyPass::set(const Sky& sky) {
         return;
     m_uploaded = sky.panorama;
     const ImageF& pixels = sky.panorama->pixels;
-    const std::uint32_t most = m_device.properties.limits.maxImageDimension2D;
-    if (pixels.width <= most && pixels.height <= most) {
+    const std::uint32_t maxSize = m_device.properties.limits.maxImageDimension2D;
+    if (pixels.width <= maxSize && pixels.height <= maxSize) {
         m_panorama = uploadPanorama(m_device, pixels);
         return;
     }
     logWarning(fmt::format("{}: {} x {} pixels are more than the device can show ({}): no sky is "
                            "seen, though it lights",
-                           sky.image, pixels.width, pixels.height, most));
+                           sky.image, pixels.width, pixels.height, maxSize));
     m_panorama = uploadPanorama(m_device, {1, 1, {glm::vec3(0)}});
 }
 

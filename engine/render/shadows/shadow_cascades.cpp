@@ -53,9 +53,10 @@ std::vector<glm::mat4> cascadeProjections(glm::vec3 direction, const Bounds& bou
             break;
         const glm::vec3 centre = camera.eye + camera.forward * (depth * sphere.distance);
         const float step = 2 * half / kSteps;
-        const glm::vec2 at = step * glm::round(glm::vec2(toLight * glm::vec4(centre, 1)) / step);
+        const glm::vec2 snapped =
+            step * glm::round(glm::vec2(toLight * glm::vec4(centre, 1)) / step);
         const glm::mat4 projection =
-            glm::orthoRH_ZO(at.x - half, at.x + half, at.y - half, at.y + half,
+            glm::orthoRH_ZO(snapped.x - half, snapped.x + half, snapped.y - half, snapped.y + half,
                             -(inLight.lower.z - margin), -(inLight.upper.z + margin));
         out.push_back(projection * toLight);
     }

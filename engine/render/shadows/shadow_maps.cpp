@@ -91,10 +91,10 @@ bool ShadowMaps::place(const ShadowKey& key, Group& group) {
     group.places.clear();
     group.drawn = false;
     while (group.places.size() < count) {
-        const auto at = m_tiles.take(isLarge(key));
-        if (!at)
+        const auto tile = m_tiles.take(isLarge(key));
+        if (!tile)
             return false;
-        group.places.push_back(*at);
+        group.places.push_back(*tile);
     }
     return true;
 }
@@ -184,8 +184,8 @@ std::vector<ShadowSlot> ShadowMaps::assign(const std::vector<Light>& lights, con
             }
             continue;
         }
-        for (const std::uint32_t at : group.places)
-            m_tiles.free(at, isLarge(key));
+        for (const std::uint32_t tile : group.places)
+            m_tiles.free(tile, isLarge(key));
         for (const Cascade& c : group.cascades)
             m_tiles.free(c.place, false);
     }

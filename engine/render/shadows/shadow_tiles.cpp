@@ -23,19 +23,19 @@ void ShadowTiles::reset(std::uint32_t level) {
 std::optional<std::uint32_t> ShadowTiles::take(bool large) {
     const auto end = m_taken.end();
     if (!large) {
-        const auto at = std::find(m_taken.begin() + m_firstFree, end, false);
-        m_firstFree = std::uint32_t(at - m_taken.begin());
-        if (at == end)
+        const auto tile = std::find(m_taken.begin() + m_firstFree, end, false);
+        m_firstFree = std::uint32_t(tile - m_taken.begin());
+        if (tile == end)
             return {};
-        *at = true;
+        *tile = true;
         return m_firstFree++;
     }
     const std::uint32_t start = (m_firstFree + kLargeTile - 1) / kLargeTile * kLargeTile;
-    for (auto at = m_taken.begin() + start; at < end; at += kLargeTile) {
-        if (std::find(at, at + kLargeTile, true) != at + kLargeTile)
+    for (auto tile = m_taken.begin() + start; tile < end; tile += kLargeTile) {
+        if (std::find(tile, tile + kLargeTile, true) != tile + kLargeTile)
             continue;
-        std::fill_n(at, kLargeTile, true);
-        return std::uint32_t(at - m_taken.begin());
+        std::fill_n(tile, kLargeTile, true);
+        return std::uint32_t(tile - m_taken.begin());
     }
     return {};
 }
