@@ -132,9 +132,9 @@ void seenShares(const TransportView& v, float* share) {
     std::fill(share, share + v.dims.nodes(), 0.f);
     share[v.dims.nodes() - 1] = 1;
     for (std::size_t k = v.dims.innerNodes; k-- > 0;) {
-        const float own = share[v.dims.leaves() + k], left = own * v.leftWeight[k];
+        const float whole = share[v.dims.leaves() + k], left = whole * v.leftWeight[k];
         share[v.child[2 * k]] += left;
-        share[v.child[2 * k + 1]] += own - left;
+        share[v.child[2 * k + 1]] += whole - left;
     }
 }
 

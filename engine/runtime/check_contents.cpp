@@ -60,10 +60,10 @@ bool linksAreBounded(const TransportView& v) {
     constexpr int kTwo = 0x4000, kLargest = 0x7bff; // halfs
     for (std::uint32_t c = 0; c < v.dims.caches; ++c) {
         const int power = 10 + v.linkExponent[c]; // 2^power is a transport of 1024
-        const int most = power > 15 ? kLargest : power < -14 ? 0x3ff : (power + 15) << 10;
+        const int maxTransport = power > 15 ? kLargest : power < -14 ? 0x3ff : (power + 15) << 10;
         for (std::uint32_t k = v.linkBegin[c]; k < v.linkBegin[c + 1]; ++k)
             if (v.links[k].node >= v.dims.nodes() || v.links[k].u > kTwo ||
-                v.links[k].transport > most)
+                v.links[k].transport > maxTransport)
                 return false;
     }
     return true;

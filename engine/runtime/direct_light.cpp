@@ -218,11 +218,11 @@ void takeLights(limnrt_scene& s) {
         if (s.slotOf[k] == ~0U)
             continue;
         const F4 strength = load3(s.lights[k].color) * splat(s.lights[k].strength),
-                 most = splat(kMaxIrradiance);
+                 maximum = splat(kMaxIrradiance);
         const float* share = s.slots[s.slotOf[k]].share;
         for (std::size_t i = 0; i < surfels; ++i) {
             const F4 irradiance = strength * splat(share[i]);
-            s.direct[i] += irradiance < most ? irradiance : most;
+            s.direct[i] += irradiance < maximum ? irradiance : maximum;
         }
     }
 }

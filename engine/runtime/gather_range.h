@@ -22,18 +22,18 @@ void gatherBands(const Gather& g, std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t c = begin; c < end; ++c) {
         Floats sums[3 * kCount + 2] = {}; // grey ones are read in threes
         const std::uint32_t last = g.linkEnd[c];
-        std::uint32_t at = g.view.linkBegin[c];
-        for (; at < last; at += kLanes) {
-            const Link* links = g.view.links + at;
+        std::uint32_t first = g.view.linkBegin[c];
+        for (; first < last; first += kLanes) {
+            const Link* links = g.view.links + first;
             Link copies[kLanes];
-            if (total - at < std::uint32_t(kLanes)) { // else the next cache's are read as well
+            if (total - first < std::uint32_t(kLanes)) { // else the next cache's are read as well
                 std::memset(copies, 0, sizeof copies);
-                std::memcpy(copies, links, (total - at) * sizeof(Link));
+                std::memcpy(copies, links, (total - first) * sizeof(Link));
                 links = copies;
             }
-            for (int k = 0; at < ahead && k < kLanes; ++k)
+            for (int k = 0; first < ahead && k < kLanes; ++k)
                 __builtin_prefetch(&g.radiosity[links[kAhead + k].node]);
-            block.add(links, last - at, g.radiosity);
+            block.add(links, last - first, g.radiosity);
             if (block.vectors == Block<Bands>::kVectors)
                 block.addTo(sums, coloured);
         }
@@ -41,9 +41,9 @@ void gatherBands(const Gather& g, std::uint32_t begin, std::uint32_t end) {
         F4* out = g.sh + std::size_t(c) * g.stride;
         const float unscaled = __builtin_ldexpf(1, -g.view.linkExponent[c]);
         for (int i = 0; i < coloured; ++i)
-            out[i] = sumLanes(sums + 3 * i) * (scale.at[i] * unscaled);
+            out[i] = sumLanes(sums + 3 * i) * (scale.factor[i] * unscaled);
         for (int i = coloured; i < kCount; ++i) {
-            const F4 grey = sumLanes(sums + 2 * coloured + i) * (scale.at[i] * unscaled);
+            const F4 grey = sumLanes(sums + 2 * coloured + i) * (scale.factor[i] * unscaled);
             out[i] = F4{grey[0], grey[0], grey[0], 0};
         }
     }

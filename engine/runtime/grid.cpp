@@ -79,16 +79,18 @@ GridLookup gridLookup(const TransportView& view, const float* position, const fl
     GridLookup lookup;
     float sum = 0;
     for (std::uint32_t corner = 0; corner < 8; ++corner) {
-        std::uint32_t at[3];
+        std::uint32_t coordinates[3];
         float way[3], weight = 1;
         for (int k = 0; k < 3; ++k) {
             const std::uint32_t step = corner >> k & 1;
-            at[k] = std::min(base[k] + step, view.dims.grid[k] - 1);
+            coordinates[k] = std::min(base[k] + step, view.dims.grid[k] - 1);
             weight *= step ? f[k] : 1 - f[k];
             way[k] = position[k] + normal[k] * kBias * shortest -
-                     (s.gridLower[k] + (float(at[k]) + 0.5f) * cellSize[k]);
+                     (s.gridLower[k] + (float(coordinates[k]) + 0.5f) * cellSize[k]);
         }
-        const std::uint32_t cell = (at[2] * view.dims.grid[1] + at[1]) * view.dims.grid[0] + at[0];
+        const std::uint32_t cell =
+            (coordinates[2] * view.dims.grid[1] + coordinates[1]) * view.dims.grid[0] +
+            coordinates[0];
         const std::uint16_t* map = view.gridDepth + std::size_t(kDepthTexels) * cell;
         lookup.cell[corner] = cell;
         lookup.weight[corner] = weight * (kUnseen + seenFrom(map, way, reach));

@@ -38,8 +38,8 @@ LIMNRT_INLINE Floats magnitude(Floats v) {
     return bitsAs<Floats>(bitsAs<Ints>(v) & ~kSign);
 }
 /// `v` >= 0 with the sign of another.
-LIMNRT_INLINE Floats withSignOf(Floats v, Floats of) {
-    return bitsAs<Floats>(bitsAs<Ints>(v) | (bitsAs<Ints>(of) & kSign));
+LIMNRT_INLINE Floats withSignOf(Floats v, Floats sign) {
+    return bitsAs<Floats>(bitsAs<Ints>(v) | (bitsAs<Ints>(sign) & kSign));
 }
 /// 1 / sqrt(v) within some roundings: an estimate from the exponent, three steps of Newton's.
 LIMNRT_INLINE Floats inverseRoot(Floats v) {

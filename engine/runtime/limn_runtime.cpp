@@ -29,7 +29,7 @@ struct Arena {
 
 void takeArrays(limnrt_scene& s, Arena& arena) {
     const Dims& d = s.view.dims;
-    const std::uint64_t surfels = d.surfels, most = s.options.max_lights;
+    const std::uint64_t surfels = d.surfels, maxLights = s.options.max_lights;
     limnrt_scene* self = nullptr;
     arena.take(self, 1);
     arena.take(s.albedo, surfels);
@@ -44,12 +44,12 @@ void takeArrays(limnrt_scene& s, Arena& arena) {
     arena.take(s.endBeforeSky, d.caches);
     arena.take(s.linkEnd, d.caches);
     arena.take(s.read, d.caches);
-    arena.take(s.lights, most);
-    arena.take(s.slots, most);
-    arena.take(s.slotOf, most);
+    arena.take(s.lights, maxLights);
+    arena.take(s.slots, maxLights);
+    arena.take(s.slotOf, maxLights);
     float* shares = nullptr;
-    arena.take(shares, surfels * most);
-    for (std::size_t k = 0; arena.block && k < most; ++k)
+    arena.take(shares, surfels * maxLights);
+    for (std::size_t k = 0; arena.block && k < maxLights; ++k)
         s.slots[k].share = shares + k * surfels;
 }
 
@@ -186,12 +186,13 @@ int limnrt_set_emission(limnrt_scene* s, uint32_t first, uint32_t count, const f
     return 1;
 }
 
-/// Sets `values` of a material's surfels to scale * min(rgb times `file`, most); `file` 0: to rgb.
+/// Sets `values` of a material's surfels to scale * min(rgb times `file`, maximum); `file` 0: to
+/// rgb.
 static int setMaterial(limnrt_scene* s, std::uint32_t material, const float* rgb, float limit,
-                       const float* file, float most, float scale, F4* values) {
+                       const float* file, float maximum, float scale, F4* values) {
     if (material >= s->view.dims.materials || !finiteWithin(rgb, 3, 0, limit))
         return 0;
-    const F4 value = load3(rgb), end = splat(most);
+    const F4 value = load3(rgb), end = splat(maximum);
     for (std::size_t k = 0; k < s->view.dims.surfels; ++k)
         if (s->view.surfelMaterial[k] == material) {
             const F4 product = file ? value * load3(file + 3 * k) : value;

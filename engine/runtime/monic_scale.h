@@ -6,7 +6,7 @@ namespace limn::runtime {
 /// The constants that basis and cone factors omit, at l(l+1)+m: K_lm and the leading coefficients
 /// of P_l^m and, for l > 0, of P_l' / (l(l+1)).
 struct MonicScale {
-    float at[64];
+    float factor[64];
 
     MonicScale() {
         double odd = 1, factorial = 1; // (2l-1)!!, l!
@@ -20,7 +20,7 @@ struct MonicScale {
                     below /= l - m + 1, ratio /= double(l + m) * (l - m + 1);
                 const double k =
                     __builtin_sqrt((2 * l + 1) / 12.566370614359172 * ratio * (m > 0 ? 2 : 1));
-                at[l * (l + 1) + m] = at[l * (l + 1) - m] = float(k * cone * odd / below);
+                factor[l * (l + 1) + m] = factor[l * (l + 1) - m] = float(k * cone * odd / below);
             }
         }
     }

@@ -23,10 +23,10 @@ F4 corner(const float* p) {
     return v;
 }
 
-float most(F4 v) {
+float maxComponent(F4 v) {
     return std::max(std::max(v[0], v[1]), v[2]);
 }
-float least(F4 v) {
+float minComponent(F4 v) {
     return std::min(std::min(v[0], v[1]), v[2]);
 }
 
@@ -35,8 +35,8 @@ float enter(const TracedRay& ray, const Box& box) {
     constexpr float kRounding = 1 + 4e-7f;
     const F4 a = (corner(box.lower) - ray.origin) * ray.inverse,
              b = (corner(box.upper) - ray.origin) * ray.inverse;
-    const float in = std::max(most(a < b ? a : b), 0.f);
-    const float out = std::min(least(a < b ? b : a) * kRounding, ray.distance);
+    const float in = std::max(maxComponent(a < b ? a : b), 0.f);
+    const float out = std::min(minComponent(a < b ? b : a) * kRounding, ray.distance);
     return in <= out ? in : -1;
 }
 
@@ -59,9 +59,9 @@ std::int32_t wrapped(std::int32_t i, std::int32_t size, std::uint32_t wrap) {
 
 /// The image's alpha at a place in it, [0, 1].
 float alphaAt(const TransportView& view, const Mask& mask, const float* uv) {
-    float at[2];
+    float position[2];
     for (int k = 0; k < 2; ++k)
-        at[k] = (mask.wrap[k] == 0 ? uv[k] - std::floor(uv[k]) : uv[k]) * float(mask.size[k]);
+        position[k] = (mask.wrap[k] == 0 ? uv[k] - std::floor(uv[k]) : uv[k]) * float(mask.size[k]);
     const auto texel = [&](std::int32_t x, std::int32_t y) {
         x = wrapped(x, std::int32_t(mask.size[0]), mask.wrap[0]);
         y = wrapped(y, std::int32_t(mask.size[1]), mask.wrap[1]);
@@ -69,9 +69,9 @@ float alphaAt(const TransportView& view, const Mask& mask, const float* uv) {
         return float(view.maskTexels[std::size_t(mask.begin) + row + std::size_t(x)]) / 255.f;
     };
     if (mask.nearest != 0)
-        return texel(std::int32_t(std::floor(at[0])), std::int32_t(std::floor(at[1])));
-    const float left = std::floor(at[0] - 0.5f), upper = std::floor(at[1] - 0.5f);
-    const float fx = at[0] - 0.5f - left, fy = at[1] - 0.5f - upper;
+        return texel(std::int32_t(std::floor(position[0])), std::int32_t(std::floor(position[1])));
+    const float left = std::floor(position[0] - 0.5f), upper = std::floor(position[1] - 0.5f);
+    const float fx = position[0] - 0.5f - left, fy = position[1] - 0.5f - upper;
     const auto x = std::int32_t(left), y = std::int32_t(upper);
     const float above = texel(x, y) * (1 - fx) + texel(x + 1, y) * fx,
                 below = texel(x, y + 1) * (1 - fx) + texel(x + 1, y + 1) * fx;
@@ -130,11 +130,11 @@ bool occluded(const TransportView& view, F4 origin, F4 direction, float distance
     for (int k = 0; k < 3; ++k) // never infinite, which times 0 would be NaN
         ray.inverse[k] = 1 / std::copysign(std::max(std::fabs(direction[k]), 1e-20f), direction[k]);
     std::uint32_t waiting[kMaxBoxDepth + 2];
-    std::uint32_t count = 0, at = 0;
+    std::uint32_t count = 0, index = 0;
     if (enter(ray, view.boxes[0]) < 0)
         return false;
     for (;;) {
-        const Box& box = view.boxes[at];
+        const Box& box = view.boxes[index];
         if (box.count == 0) {
             const float left = enter(ray, view.boxes[box.first]),
                         right = enter(ray, view.boxes[box.first + 1]);
@@ -142,7 +142,7 @@ bool occluded(const TransportView& view, F4 origin, F4 direction, float distance
             if (left >= 0 && right >= 0)
                 waiting[count++] = box.first + (rightFirst ? 0 : 1);
             if (left >= 0 || right >= 0) {
-                at = box.first + (rightFirst ? 1 : 0);
+                index = box.first + (rightFirst ? 1 : 0);
                 continue;
             }
         } else if (meetsAny(view, ray, box)) {
@@ -150,7 +150,7 @@ bool occluded(const TransportView& view, F4 origin, F4 direction, float distance
         }
         if (count == 0)
             return false;
-        at = waiting[--count];
+        index = waiting[--count];
     }
 }
 

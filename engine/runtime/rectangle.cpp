@@ -75,7 +75,7 @@ SphericalRectangle::SphericalRectangle(const Rectangle& r, Vec3 from)
     m_y0 = y - halfHeight, m_y1 = y + halfHeight;
     m_depth = dot(way, m_z);
     // The z of the normals of the planes through `from` and the edges y0, x1, y1, x0.
-    const auto steepness = [this](double at) { return at / std::hypot(at, m_depth); };
+    const auto steepness = [this](double edge) { return edge / std::hypot(edge, m_depth); };
     const double n0 = -steepness(m_y0), n1 = steepness(m_x1), n2 = steepness(m_y1),
                  n3 = -steepness(m_x0);
     const auto angle = [](double a, double b) { return std::acos(std::clamp(-a * b, -1.0, 1.0)); };
