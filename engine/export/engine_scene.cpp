@@ -11,9 +11,10 @@
 
 namespace limn {
 
-static void replaceAll(std::string& text, std::string_view what, std::string_view by) {
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
-        text.replace(at, what.size(), by);
+static void replaceAll(std::string& text, std::string_view what, std::string_view replacement) {
+    for (std::size_t position = 0; (position = text.find(what, position)) != std::string::npos;
+         position += replacement.size())
+        text.replace(position, what.size(), replacement);
 }
 
 Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,

@@ -52,11 +52,11 @@ Json matrixJson(const glm::mat4& m) {
 Json lightJson(const Light& light) {
     // Colours end at 1; what is brighter is in the intensity.
     const glm::vec3 c = light.color;
-    const float most = std::max({c.x, c.y, c.z, 1.f});
+    const float maximum = std::max({c.x, c.y, c.z, 1.f});
     Json json = {{"name", light.name},
                  {"type", typeOf(light.kind)},
-                 {"color", {c.x / most, c.y / most, c.z / most}},
-                 {"intensity", light.strength * most}};
+                 {"color", {c.x / maximum, c.y / maximum, c.z / maximum}},
+                 {"intensity", light.strength * maximum}};
     if (light.kind != LightKind::Directional && light.range > 0)
         json["range"] = light.range;
     if (light.kind == LightKind::Spot)

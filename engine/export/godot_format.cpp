@@ -146,9 +146,9 @@ Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSett
 }
 
 ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
-    const ExportSettings own = ownSettings(settings);
-    ExportForecast f = forecastLightmap(scene.layout, own);
-    const std::uint64_t layers = own.bands > 1 ? 4 : 1;
+    const ExportSettings godotSettings = ownSettings(settings);
+    ExportForecast f = forecastLightmap(scene.layout, godotSettings);
+    const std::uint64_t layers = godotSettings.bands > 1 ? 4 : 1;
     f.bytes = gltfBytes(scene) + layers * f.width * f.height * 11; // 8 bytes in base64
     f.bytes += std::min<std::uint64_t>(scene.field.cells(), kMaxGodotProbes) *
                800; // a probe and its tetrahedra

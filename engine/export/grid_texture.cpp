@@ -52,14 +52,14 @@ Result<std::string> gridKtx2(const IndirectField& field, bool zstd) {
         return tl::make_unexpected(exists.error());
     Ktx2Shape shape{.width = n.x, .height = n.y, .depth = kGroups * (n.z + 2), .zstd = zstd};
     std::vector<glm::vec4> texels(shape.texels());
-    float most = 0;
+    float maximum = 0;
     for (std::size_t cell = 0; cell < cells; ++cell) {
         const auto groups = threeGridCell(gridCell(field, cell));
         for (std::size_t t = 0; t < kGroups; ++t) {
             const std::size_t slice = t * (n.z + 2) + 1 + cell / plane;
             texels[slice * plane + cell % plane] = groups[t];
             for (int k = 0; k < 4; ++k)
-                most = std::max(most, std::abs(groups[t][k]));
+                maximum = std::max(maximum, std::abs(groups[t][k]));
         }
     }
     const auto slice = [&](std::size_t z) { return texels.begin() + std::ptrdiff_t(z * plane); };
@@ -68,7 +68,7 @@ Result<std::string> gridKtx2(const IndirectField& field, bool zstd) {
         std::copy(slice(first + 1), slice(first + 2), slice(first));
         std::copy(slice(first + n.z), slice(first + n.z + 1), slice(first + n.z + 1));
     }
-    if (most > 65504 || (most > 0 && most < 0x1p-9f))
+    if (maximum > 65504 || (maximum > 0 && maximum < 0x1p-9f))
         shape.format = Ktx2Format::Rgba32f;
     return encodeKtx2(shape, texels);
 }

@@ -39,8 +39,8 @@ static Result<std::string> rgbdPng(const CubeMap& cube, std::size_t face, float 
         const std::size_t row = cube.size - 1 - t / cube.size, column = t % cube.size;
         const glm::vec3 radiance = cube.rgb[face * texels + row * cube.size + column];
         const glm::vec3 color = glm::max(radiance * scale, glm::vec3(0));
-        const float most = std::max({color.x, color.y, color.z, 1.f});
-        const float divisor = std::clamp(std::floor(255 / most), 1.f, 255.f) / 255;
+        const float maximum = std::max({color.x, color.y, color.z, 1.f});
+        const float divisor = std::clamp(std::floor(255 / maximum), 1.f, 255.f) / 255;
         for (int c = 0; c < 3; ++c) {
             const float v = std::pow(std::clamp(color[c] * divisor, 0.f, 1.f), 1 / 2.2f);
             image.rgba.push_back(std::uint8_t(std::lround(255 * v)));
@@ -64,10 +64,10 @@ static Result<ProbeLight> probeLight(const ExportScene& scene, const Progress& p
         light.mips.push_back(prefiltered(light.mips.front(), alphaOf(mip), kFaceSize >> mip));
     if (progress.cancelled())
         return fail("cancelled");
-    float most = 0;
+    float maximum = 0;
     for (const glm::vec3& v : light.mips.front().rgb)
-        most = std::max({most, v.x, v.y, v.z});
-    light.intensity = std::max(most / kMostRgbd, 1.f);
+        maximum = std::max({maximum, v.x, v.y, v.z});
+    light.intensity = std::max(maximum / kMostRgbd, 1.f);
     return light;
 }
 

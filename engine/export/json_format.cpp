@@ -39,13 +39,13 @@ struct ObjectWriter {
         key(name);
         out += value.dump();
     }
-    void numbers(const char* name, std::size_t count, const auto& at) {
+    void numbers(const char* name, std::size_t count, const auto& numberAt) {
         key(name);
         out += '[';
         for (std::size_t i = 0; i < count; ++i) {
             if (i > 0)
                 out += ',';
-            fmt::format_to(std::back_inserter(out), "{}", at(i));
+            fmt::format_to(std::back_inserter(out), "{}", numberAt(i));
         }
         out += ']';
     }

@@ -17,20 +17,20 @@ namespace {
 
 /// Fails on values that the encoding would clamp.
 Result<void> checkRange(const LightmapImage& image, TextureEncoding encoding) {
-    float least = 0, most = 0;
+    float minimum = 0, maximum = 0;
     for (const glm::vec3& v : image.rgb) {
-        least = std::min({least, v.x, v.y, v.z});
-        most = std::max({most, v.x, v.y, v.z});
+        minimum = std::min({minimum, v.x, v.y, v.z});
+        maximum = std::max({maximum, v.x, v.y, v.z});
     }
     const bool shared = encoding == TextureEncoding::Ktx2Rgb9e5;
-    if (shared && least < 0)
+    if (shared && minimum < 0)
         return fail("encoding: a shared exponent cannot hold the negative values of harmonics; use "
                     "half floats");
     const float limit = shared ? 65408.f : 65504.f;
-    if (std::max(most, -least) > limit)
+    if (std::max(maximum, -minimum) > limit)
         return fail(fmt::format("encoding: a value of {:.6g} exceeds {}, the largest that it can "
                                 "hold; use EXR or dim the lights",
-                                std::max(most, -least), limit));
+                                std::max(maximum, -minimum), limit));
     return {};
 }
 

@@ -77,8 +77,8 @@ std::size_t cubeTexel(std::uint32_t size, glm::vec3 direction) {
     const Face& face = kFaces[best];
     const float depth = glm::dot(direction, face.middle);
     const auto index = [&](glm::vec3 axis) {
-        const float at = (glm::dot(direction, axis) / depth + 1) / 2 * float(size);
-        return std::size_t(std::clamp(at, 0.f, float(size) - 0.5f));
+        const float position = (glm::dot(direction, axis) / depth + 1) / 2 * float(size);
+        return std::size_t(std::clamp(position, 0.f, float(size) - 0.5f));
     };
     return (best * size + index(face.down)) * size + index(face.right);
 }
