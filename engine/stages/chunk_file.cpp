@@ -22,15 +22,15 @@ ChunkWriter::ChunkWriter(const ChunkFormat& format) : m_file(kHeader, '\0') {
 // Compresses in place, because chunks are as large as everything else that is still held when a
 // bake is written.
 void ChunkWriter::add(const char* name, const std::string& plain) {
-    const std::size_t at = m_file.size(), from = at + kChunkHeader,
-                      most = ZSTD_compressBound(plain.size());
-    m_file.resize(from + most);
+    const std::size_t header = m_file.size(), from = header + kChunkHeader,
+                      maxSize = ZSTD_compressBound(plain.size());
+    m_file.resize(from + maxSize);
     const std::size_t packed =
-        ZSTD_compress(m_file.data() + from, most, plain.data(), plain.size(), 3);
+        ZSTD_compress(m_file.data() + from, maxSize, plain.data(), plain.size(), 3);
     m_file.resize(from + packed);
     const std::uint64_t longs[3] = {plain.size(), packed, hashBytes(m_file.data() + from, packed)};
-    std::memcpy(m_file.data() + at, name, 8);
-    std::memcpy(m_file.data() + at + 8, longs, sizeof longs);
+    std::memcpy(m_file.data() + header, name, 8);
+    std::memcpy(m_file.data() + header + 8, longs, sizeof longs);
     ++m_count;
     std::memcpy(m_file.data() + kMark + 4, &m_count, 4);
 }
@@ -66,24 +66,25 @@ Result<void> ChunkReader::list(const ChunkFormat& format) {
     if (version != format.version)
         return fail(
             fmt::format("{}: version {} is not {}: bake again", m_path, version, format.version));
-    std::size_t at = kHeader;
+    std::size_t offset = kHeader;
     for (std::uint32_t i = 0; i < count; ++i) {
-        if (m_bytes.size() - at < kChunkHeader)
+        if (m_bytes.size() - offset < kChunkHeader)
             return fail(fmt::format("{}: truncated after {} of {} chunks", m_path, i, count));
-        const std::string name(m_bytes.data() + at, 8);
+        const std::string name(m_bytes.data() + offset, 8);
         Chunk chunk;
-        std::memcpy(&chunk.plainSize, m_bytes.data() + at + 8, 8);
-        std::memcpy(&chunk.packedSize, m_bytes.data() + at + 16, 8);
-        std::memcpy(&chunk.hash, m_bytes.data() + at + 24, 8);
-        at += kChunkHeader;
-        if (chunk.packedSize > m_bytes.size() - at)
+        std::memcpy(&chunk.plainSize, m_bytes.data() + offset + 8, 8);
+        std::memcpy(&chunk.packedSize, m_bytes.data() + offset + 16, 8);
+        std::memcpy(&chunk.hash, m_bytes.data() + offset + 24, 8);
+        offset += kChunkHeader;
+        if (chunk.packedSize > m_bytes.size() - offset)
             return fail(fmt::format("{}: chunk {}: truncated or damaged", m_path, i));
-        chunk.at = at;
-        at += std::size_t(chunk.packedSize);
+        chunk.offset = offset;
+        offset += std::size_t(chunk.packedSize);
         m_chunks[name] = chunk;
     }
-    if (at != m_bytes.size())
-        return fail(fmt::format("{}: {} bytes after the last chunk", m_path, m_bytes.size() - at));
+    if (offset != m_bytes.size())
+        return fail(
+            fmt::format("{}: {} bytes after the last chunk", m_path, m_bytes.size() - offset));
     return {};
 }
 
@@ -92,7 +93,7 @@ Result<std::string> ChunkReader::unpack(const char* name) const {
     if (it == m_chunks.end())
         return fail(fmt::format("{}: chunk {}: missing", m_path, name));
     const Chunk& chunk = it->second;
-    const char* packed = m_bytes.data() + chunk.at;
+    const char* packed = m_bytes.data() + chunk.offset;
     const auto packedSize = std::size_t(chunk.packedSize);
     if (hashBytes(packed, packedSize) != chunk.hash)
         return fail(fmt::format("{}: chunk {}: checksum does not match", m_path, name));

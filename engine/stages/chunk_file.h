@@ -54,7 +54,7 @@ public:
 private:
     struct Chunk {
         std::uint64_t plainSize, packedSize, hash;
-        std::size_t at; ///< of the packed bytes
+        std::size_t offset; ///< of the packed bytes
     };
     Result<void> list(const ChunkFormat& format);
 

@@ -114,9 +114,9 @@ bool isStage(const fs::path& path) {
            std::memcmp(magic, kMagic, sizeof magic) == 0;
 }
 
-/// Removes the least recently used files until at most `most` bytes are left. Returns the bytes
+/// Removes the least recently used files until at most `maxBytes` bytes are left. Returns the bytes
 /// left. Other processes may remove files meanwhile; other files in the folder are not touched.
-std::uint64_t trim(const fs::path& folder, std::uint64_t most) {
+std::uint64_t trim(const fs::path& folder, std::uint64_t maxBytes) {
     struct File {
         fs::file_time_type used;
         std::uint64_t size;
@@ -135,12 +135,12 @@ std::uint64_t trim(const fs::path& folder, std::uint64_t most) {
         total += file.size;
         files.push_back(file);
     }
-    if (total <= most)
+    if (total <= maxBytes)
         return total;
     std::sort(files.begin(), files.end(),
               [](const File& a, const File& b) { return a.used < b.used; });
     for (const File& file : files) {
-        if (total <= most)
+        if (total <= maxBytes)
             break;
         std::error_code gone;
         fs::remove(file.path, gone);
