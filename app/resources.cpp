@@ -27,10 +27,10 @@ std::string dataFolder(const std::string& name) {
 }
 
 ExportFolders exportFolders() {
-    const std::string web = folderOf("web", "build/web"), own = "node_modules/three";
+    const std::string web = folderOf("web", "build/web"), local = "node_modules/three";
     std::error_code error;
-    const bool here = std::filesystem::is_directory(own, error);
-    return {.three = here ? own : web + "/" + own, .webRuntime = web};
+    const bool here = std::filesystem::is_directory(local, error);
+    return {.three = here ? local : web + "/" + local, .webRuntime = web};
 }
 
 } // namespace limn

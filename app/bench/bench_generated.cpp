@@ -176,7 +176,7 @@ void addDistribution(Json& to, const std::vector<const Json*>& rows, const std::
         if (const Json& value = (*row)[key]; value.isNumber())
             values.push_back(std::abs(value.get<double>()));
     std::sort(values.begin(), values.end());
-    const auto at = [&](double share) -> Json {
+    const auto quantile = [&](double share) -> Json {
         if (values.empty())
             return nullptr;
         const double place = share * double(values.size() - 1);
@@ -184,9 +184,9 @@ void addDistribution(Json& to, const std::vector<const Json*>& rows, const std::
         const double above = values[std::min(below + 1, values.size() - 1)];
         return values[below] + (place - double(below)) * (above - values[below]);
     };
-    to[key + "_median"] = at(0.5);
-    to[key + "_p90"] = at(0.9);
-    to[key + "_worst"] = at(1);
+    to[key + "_median"] = quantile(0.5);
+    to[key + "_p90"] = quantile(0.9);
+    to[key + "_worst"] = quantile(1);
 }
 
 Json distributionOf(const std::string& group, const Json& settings,

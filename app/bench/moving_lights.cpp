@@ -21,10 +21,10 @@ std::vector<Light> pointsOver(const Scene& scene, std::span<const glm::vec3> pos
 
 void moveObjects(Scene& scene, const Scene& standing, int k) {
     const float a = 0.1f * float(k), radius = 0.05f * glm::length(standing.bounds.size());
-    const glm::vec4 by(radius * std::sin(a), 0, radius * (std::cos(a) - 1), 0);
+    const glm::vec4 offset(radius * std::sin(a), 0, radius * (std::cos(a) - 1), 0);
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
         if (scene.instances[i].dynamic)
-            scene.instances[i].toWorld[3] = standing.instances[i].toWorld[3] + by;
+            scene.instances[i].toWorld[3] = standing.instances[i].toWorld[3] + offset;
 }
 
 } // namespace limn

@@ -35,11 +35,12 @@ public:
     double passed() { return m_passed += m_clock.lap() / 1000; } ///< [s]
     bool over() { return m_seconds && passed() >= *m_seconds; }
     /// A share of all the time, or of what is left of it [s].
-    std::optional<double> share(double of) const {
-        return m_seconds ? std::optional(of * *m_seconds) : std::nullopt;
+    std::optional<double> share(double fraction) const {
+        return m_seconds ? std::optional(fraction * *m_seconds) : std::nullopt;
     }
-    std::optional<double> shareOfRest(double of) {
-        return m_seconds ? std::optional(of * std::max(*m_seconds - passed(), 0.)) : std::nullopt;
+    std::optional<double> shareOfRest(double fraction) {
+        return m_seconds ? std::optional(fraction * std::max(*m_seconds - passed(), 0.))
+                         : std::nullopt;
     }
 
 private:
@@ -73,12 +74,12 @@ Plan planOf(const SceneBenchOptions& o, const std::vector<LightPlace>& places,
             const BakeSettings& bake) {
     Plan plan;
     std::vector<std::pair<const Technique*, std::vector<Variant>>> variants;
-    std::size_t most = 0;
+    std::size_t maxVariants = 0;
     for (const Technique* technique : techniques()) {
         if (!isWanted(o, *technique))
             continue;
         variants.emplace_back(technique, variantsOf(*technique, bake));
-        most = std::max(most, variants.back().second.size());
+        maxVariants = std::max(maxVariants, variants.back().second.size());
         for (const LightPlace& place : places)
             if (place.lights(*technique))
                 plan.configurations += variants.back().second.size();
@@ -86,7 +87,7 @@ Plan planOf(const SceneBenchOptions& o, const std::vector<LightPlace>& places,
                 plan.notHere.push_back(
                     fmt::format("{} does not light on {}", technique->label, place.device));
     }
-    for (std::size_t k = 0; k < most; ++k)
+    for (std::size_t k = 0; k < maxVariants; ++k)
         for (const auto& [technique, all] : variants)
             if (k < all.size())
                 plan.entries.push_back({technique, all[k]});
@@ -130,7 +131,7 @@ void SceneBench::skip(const std::string& what, const std::string& why) {
 }
 
 void SceneBench::measureEverywhere(const Configuration& c) {
-    PointLimits limits{{.most = m_options.runs}, m_time.share(kLiveShare)};
+    PointLimits limits{{.maxRuns = m_options.runs}, m_time.share(kLiveShare)};
     if (const auto seconds = m_time.share(kKindShare))
         limits.runs.enoughMs = std::min(1000 * *seconds, limits.runs.enoughMs);
     std::optional<ImageF> onCpu;
@@ -204,8 +205,8 @@ PageScene SceneBench::page(const Plan& plan) {
         page.note += " Skipped: " + text + ".";
     for (const Technique* technique : techniques()) {
         const Point* best = nullptr;
-        for (const auto& [of, point] : m_points) {
-            if (of != technique)
+        for (const auto& [pointTechnique, point] : m_points) {
+            if (pointTechnique != technique)
                 continue;
             page.rows.push_back(point.row);
             if (!best || point.row["nrmse"].get<double>() < best->row["nrmse"].get<double>())

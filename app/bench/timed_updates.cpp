@@ -38,7 +38,7 @@ template <class Measure>
 double median(const UpdateRuns& runs, const Measure& measure) {
     std::vector<double> ms;
     double sum = 0;
-    for (int k = 1; k <= runs.most && (k == 1 || sum < runs.enoughMs); ++k)
+    for (int k = 1; k <= runs.maxRuns && (k == 1 || sum < runs.enoughMs); ++k)
         sum += ms.emplace_back(measure(k));
     std::ranges::sort(ms);
     return ms[ms.size() / 2];
@@ -51,9 +51,9 @@ UpdateTimes timeUpdates(Lighting& lighting, const Scene& scene, const TraceScene
     const auto lightUp = [&](const LightingInput& input) {
         return lighting.update(input, {}).totalMs;
     };
-    const auto update = [&](const Scene& changed, const TraceScene& of) {
+    const auto update = [&](const Scene& changed, const TraceScene& changedTrace) {
         return lightUp({.scene = changed,
-                        .trace = &of,
+                        .trace = &changedTrace,
                         .bounces = changed.relight.maxBounces,
                         .marched = true});
     };

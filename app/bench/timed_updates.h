@@ -10,7 +10,7 @@ namespace limn {
 
 /// How updates are repeated: their median counts.
 struct UpdateRuns {
-    int most = 9;
+    int maxRuns = 9;
     double enoughMs = 4000; ///< updates of one kind end when they have taken this long
 };
 

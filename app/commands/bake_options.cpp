@@ -27,8 +27,8 @@ static std::string presetNames() {
 }
 
 static const BakePreset* presetNamed(const std::string& name) {
-    const auto* at = std::ranges::find(kBakePresets, name, &BakePreset::name);
-    return at == kBakePresets.end() ? nullptr : at;
+    const auto* found = std::ranges::find(kBakePresets, name, &BakePreset::name);
+    return found == kBakePresets.end() ? nullptr : found;
 }
 
 void addBakeOptions(Command& command, BakeOptions& o) {

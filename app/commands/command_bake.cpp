@@ -51,10 +51,10 @@ Json summaryOf(const Prediction& p) {
 }
 
 void print(const BakeSettings& settings, const Json& predicted) {
-    if (const auto least = predicted["least_texels"].get<std::uint64_t>())
+    if (const auto minTexels = predicted["least_texels"].get<std::uint64_t>())
         fmt::print("{} texels are asked for, but the objects need at least about {}: one for each "
                    "direction that an object faces\n",
-                   settings.lightmapCaches, least);
+                   settings.lightmapCaches, minTexels);
     fmt::print("About {} caches, a file of {} and a peak of {} of memory\n",
                predicted["caches"].get<std::uint64_t>(),
                bytesText(predicted["file_bytes"].get<std::uint64_t>()),

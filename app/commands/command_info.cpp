@@ -63,7 +63,7 @@ static Json describe(const ImportedScene& imported) {
 
 static Json describe(const ImageF& image) {
     std::uint64_t invalid = 0;
-    float least = image.rgb[0].x, most = least;
+    float minimum = image.rgb[0].x, maximum = minimum;
     double sum = 0;
     for (const glm::vec3& p : image.rgb)
         for (int c = 0; c < 3; ++c) {
@@ -71,16 +71,16 @@ static Json describe(const ImageF& image) {
                 ++invalid;
                 continue;
             }
-            least = std::min(least, p[c]);
-            most = std::max(most, p[c]);
+            minimum = std::min(minimum, p[c]);
+            maximum = std::max(maximum, p[c]);
             sum += double(p[c]);
         }
     Json json;
     json["kind"] = "float image";
     json["width"] = image.width;
     json["height"] = image.height;
-    json["minimum"] = least;
-    json["maximum"] = most;
+    json["minimum"] = minimum;
+    json["maximum"] = maximum;
     json["mean"] = sum / double(std::max<std::uint64_t>(image.rgb.size() * 3 - invalid, 1));
     json["invalid_numbers"] = invalid;
     return json;

@@ -57,20 +57,20 @@ Result<void> checkOverlayFlags(const OverlayFlags& flags) {
 }
 
 Result<void> checkOverlayTechnique(const OverlayFlags& flags, const Technique& technique) {
-    const Technique& own = techniqueOf(*overlayKindOf(flags));
-    if (&own != &technique)
+    const Technique& owner = techniqueOf(*overlayKindOf(flags));
+    if (&owner != &technique)
         return fail(fmt::format("--overlay {}: is of the technique \"{}\", not of \"{}\"",
-                                flags.name, own.name, technique.name));
+                                flags.name, owner.name, technique.name));
     return {};
 }
 
 static Result<std::uint32_t> pickedNumber(const OverlayFlags& flags, const OverlaySource& source,
                                           const TraceScene& trace, const Camera& camera,
                                           glm::vec2 size) {
-    const glm::vec2 at(float(flags.pick[0]), float(flags.pick[1]));
-    if (at.x >= size.x || at.y >= size.y)
+    const glm::vec2 pixel(float(flags.pick[0]), float(flags.pick[1]));
+    if (pixel.x >= size.x || pixel.y >= size.y)
         return fail(fmt::format("--pick: the picture has {} x {} pixels", size.x, size.y));
-    const glm::vec2 ndc = (at + 0.5f) / size * 2.f - 1.f;
+    const glm::vec2 ndc = (pixel + 0.5f) / size * 2.f - 1.f;
     const glm::vec3 d = rayDirection(camera, size.x / size.y, ndc.x, -ndc.y);
     const Hit hit = trace.closestHit({camera.eye, glm::normalize(d)});
     const auto number = hit ? source.pickAt(trace.scene(), hit) : std::nullopt;

@@ -52,8 +52,8 @@ struct Gathering {
     FinalGather gather;
 
     Gathering(const GpuDrawing& drawing, const Scene& scene, const RenderRequest& request,
-              FieldRenderOptions by)
-        : options(std::move(by)),
+              FieldRenderOptions fieldOptions)
+        : options(std::move(fieldOptions)),
           onDevice(drawing.lighting ? drawing.lighting->readField() : IndirectField()),
           trace(scene),
           gather(trace, drawing.lighting ? onDevice : *drawing.cpuField, *request.layout, options) {

@@ -32,13 +32,13 @@ static EditorWindow& windowOf(GLFWwindow* window) {
 static std::uint8_t modsOf(int code, bool down, int glfwMods) {
     int mods = (glfwMods & GLFW_MOD_CONTROL ? kCtrl : 0) |
                (glfwMods & GLFW_MOD_SHIFT ? kShift : 0) | (glfwMods & GLFW_MOD_ALT ? kAlt : 0);
-    const auto own = [&](int left, int right, int bit) {
+    const auto updateModifier = [&](int left, int right, int bit) {
         if (code == left || code == right)
             mods = down ? mods | bit : mods & ~bit;
     };
-    own(key::kLeftControl, key::kRightControl, kCtrl);
-    own(key::kLeftShift, key::kRightShift, kShift);
-    own(key::kLeftAlt, key::kRightAlt, kAlt);
+    updateModifier(key::kLeftControl, key::kRightControl, kCtrl);
+    updateModifier(key::kLeftShift, key::kRightShift, kShift);
+    updateModifier(key::kLeftAlt, key::kRightAlt, kAlt);
     return std::uint8_t(mods);
 }
 

@@ -39,12 +39,12 @@ LitBy litBy(const Session& session) {
 
 float ViewportPicture::chooseScale(glm::uvec2 full) const {
     const double all = m_msPerPixel * double(full.x) * double(full.y),
-                 most = std::max(kMovingMs - m_shadowMs, kMovingMs / 4);
+                 maxMs = std::max(kMovingMs - m_shadowMs, kMovingMs / 4);
     if (m_msPerPixel == 0) // not known: the first picture of hundreds of lights may take a minute
         return kMinScale;
-    if (all <= most)
+    if (all <= maxMs)
         return 1;
-    const float wanted = float(std::sqrt(most / all));
+    const float wanted = float(std::sqrt(maxMs / all));
     return std::clamp(std::floor(wanted / kScaleStep) * kScaleStep, kMinScale, 1.f);
 }
 

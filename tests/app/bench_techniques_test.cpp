@@ -202,7 +202,7 @@ TEST(TimedUpdates, MediansCountAndTheSceneIsAsBefore) {
     const limn::TraceScene trace(scene);
     const limn::Viewpoint view{{.eye = {0.5f, 2, 2}, .target = {3, 1, 2}}, 1};
     ListedLight light({5, 1, 9, 100}); // after three updates, one that brings the scene back
-    const limn::UpdateTimes times = limn::timeUpdates(light, scene, trace, view, {.most = 3});
+    const limn::UpdateTimes times = limn::timeUpdates(light, scene, trace, view, {.maxRuns = 3});
     EXPECT_EQ(times.light, 5);
     EXPECT_EQ(times.color, 5);
     EXPECT_EQ(times.material, 5);
@@ -230,10 +230,10 @@ TEST(TimedUpdates, MediansCountAndTheSceneIsAsBefore) {
     limn::Scene dark = scene;
     dark.lights.clear();
     ListedLight of({1});
-    EXPECT_FALSE(limn::timeUpdates(of, dark, trace, view, {.most = 3}).color);
+    EXPECT_FALSE(limn::timeUpdates(of, dark, trace, view, {.maxRuns = 3}).color);
     EXPECT_EQ(of.asked.size(), 3 * 4 + 2 * 3 + 1U) << "light, material and object, then the camera";
     ListedLight moved({5, 1, 9, 100});
-    EXPECT_EQ(limn::timeUpdates(moved, scene, trace, view, {.most = 3}).object, 5);
+    EXPECT_EQ(limn::timeUpdates(moved, scene, trace, view, {.maxRuns = 3}).object, 5);
     EXPECT_NE(moved.asked[12].scene.instances[0].toWorld, scene.instances[0].toWorld);
 }
 
@@ -241,7 +241,7 @@ TEST(TimedUpdates, EndWhenTheyHaveTakenLongEnough) {
     const limn::Scene scene = lampRoom();
     const limn::TraceScene trace(scene);
     ListedLight light({40});
-    limn::timeUpdates(light, scene, trace, {}, {.most = 100, .enoughMs = 100});
+    limn::timeUpdates(light, scene, trace, {}, {.maxRuns = 100, .enoughMs = 100});
     EXPECT_EQ(light.asked.size(), 3 * (3 + 1) + 2 * 3 + 1U) << "three updates of 40 ms are enough";
 }
 

@@ -100,10 +100,10 @@ Json settingsOf(const BenchBake& baked) {
 
 Spread spreadOf(std::vector<double> values) {
     std::sort(values.begin(), values.end());
-    const auto at = [&](double share) {
+    const auto quantile = [&](double share) {
         return values[std::min(values.size() - 1, std::size_t(share * double(values.size())))];
     };
-    return {at(0.5), at(0.95)};
+    return {quantile(0.5), quantile(0.95)};
 }
 
 void addSpread(Json& row, const std::string& name, const std::vector<double>& ms) {

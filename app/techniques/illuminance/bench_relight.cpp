@@ -63,9 +63,9 @@ struct FieldDifference {
         const std::size_t texels = std::size_t(all.lightmapWidth) * all.lightmapHeight;
         for (std::size_t c = 0; c < seen.size(); ++c)
             for (std::size_t i = 0; seen[c] != 0 && i < all.coefficients(); ++i) {
-                const std::size_t at = i * texels + caches.texel[c];
-                const glm::vec4 d = field.lightmap[at] - all.lightmap[at];
-                square += double(glm::dot(all.lightmap[at], all.lightmap[at]));
+                const std::size_t index = i * texels + caches.texel[c];
+                const glm::vec4 d = field.lightmap[index] - all.lightmap[index];
+                square += double(glm::dot(all.lightmap[index], all.lightmap[index]));
                 difference += double(glm::dot(d, d));
             }
     }

@@ -25,8 +25,9 @@ Result<GpuRuns> relightOnGpu(const std::string& device, const TraceScene& trace,
     GpuRuns result{(*made)->properties.deviceName, {}};
     const Scene scene = sceneAt(0);
     const std::vector<glm::vec3> sky = skyRadiosity(bake->tree, scene.sky);
-    const auto most = int(bake->settings.bands);
-    const auto bands = std::uint32_t(wanted == LitBands::All ? most : receiverBands(scene, most));
+    const auto maxBands = int(bake->settings.bands);
+    const auto bands =
+        std::uint32_t(wanted == LitBands::All ? maxBands : receiverBands(scene, maxBands));
     DirectIrradiance light;
     std::vector<glm::vec3> albedo, emitted;
     surfelMaterials(bake->surfels, scene, albedo, emitted);

@@ -27,13 +27,13 @@ double ofRounding(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>&
                   double roundings) {
     if (a.size() != b.size())
         return std::numeric_limits<double>::infinity();
-    double most = 0, scale = 1e-30;
+    double maximum = 0, scale = 1e-30;
     for (std::size_t i = 0; i < a.size(); ++i) {
         for (int c = 0; c < 3; ++c)
-            raise(most, std::abs(double(a[i][c]) - double(b[i][c])));
+            raise(maximum, std::abs(double(a[i][c]) - double(b[i][c])));
         scale = std::max(scale, largest(a[i]));
     }
-    return most / (6 * 4 * roundings * std::ldexp(scale, -24));
+    return maximum / (6 * 4 * roundings * std::ldexp(scale, -24));
 }
 
 /// Number of bounces. Each adds rounding errors, and with more bounces CPU and device occasionally
