@@ -63,10 +63,10 @@ static LayoutState fitted(LayoutState layout, float width, float height) {
     layout.left = std::clamp(layout.left * scale, std::min(panel, sides / 2), sides / 2);
     layout.right =
         std::clamp(layout.right * scale, std::min(panel, sides / 2), sides - layout.left);
-    const float most = std::max(height - picture, 20.f);
-    layout.bottom = layout.bottomOpen
-                        ? std::clamp(layout.bottom * scale, std::min(80 * scale, most), most)
-                        : std::min(closedBottomHeight(), most);
+    const float maxBottom = std::max(height - picture, 20.f);
+    layout.bottom = layout.bottomOpen ? std::clamp(layout.bottom * scale,
+                                                   std::min(80 * scale, maxBottom), maxBottom)
+                                      : std::min(closedBottomHeight(), maxBottom);
     return layout;
 }
 
@@ -117,9 +117,9 @@ static float splitter(const char* name, const Rect& r, bool vertical) {
 /// Panels that the user drags get the size `shown` on the screen, and what they are dragged by.
 static void splitters(LayoutState& wanted, const LayoutState& shown, const Places& p) {
     const float width = splitterWidth();
-    const auto drag = [](float by, float from, float& to) {
-        if (by != 0)
-            to = (from + by) / uiScale();
+    const auto drag = [](float dragged, float from, float& to) {
+        if (dragged != 0)
+            to = (from + dragged) / uiScale();
     };
     drag(splitter("split left", {p.left.w, p.left.y, width, p.left.h}, true), shown.left,
          wanted.left);

@@ -237,7 +237,7 @@ void Session::offerRecovery() {
     if (!m_offered && !started)
         m_offered = findRecovery(m_options.recoveryFolder, {});
     if (m_offered)
-        state.recovery = RecoveryOffer{m_offered->of, m_offered->written};
+        state.recovery = RecoveryOffer{m_offered->originalPath, m_offered->written};
 }
 
 void Session::answerRecovery(Request::Kind answer) {
@@ -247,10 +247,11 @@ void Session::answerRecovery(Request::Kind answer) {
         removeRecovery(m_offered->folder);
     if (answer != Request::Kind::Recover)
         m_offered.reset();
-    else if (m_files.recover(m_offered->documentPath(), m_offered->of))
-        state.loading = m_offered->of;
+    else if (m_files.recover(m_offered->documentPath(), m_offered->originalPath))
+        state.loading = m_offered->originalPath;
     else
-        complain("Not recovered", m_offered->of + ": another file is being opened; open it again");
+        complain("Not recovered",
+                 m_offered->originalPath + ": another file is being opened; open it again");
 }
 
 void Session::keepForRecovery() {
@@ -532,10 +533,10 @@ void Session::followReference() {
 
 void Session::followOtherTechnique() {
     CompareState& compare = state.compare;
-    const std::string& own = m_scene->technique.technique;
-    if (compare.technique.empty() || compare.technique == own)
+    const std::string& current = m_scene->technique.technique;
+    if (compare.technique.empty() || compare.technique == current)
         for (const Technique* technique : techniques()) // the last one that needs no bake
-            if (technique->name != own && !technique->precomputation)
+            if (technique->name != current && !technique->precomputation)
                 compare.technique = technique->name;
     const glm::vec2 size = glm::max(state.view.size, glm::vec2(1));
     m_other.set(compare.mode == Compare::Technique ? compare.technique : std::string(), m_scene,

@@ -26,8 +26,8 @@ void Session::measureCost(const BakedScene& before) {
     for (auto& [stage, seconds] : m_cost.seconds) {
         if (std::ranges::find(report.keptStages, stage) == report.keptStages.end())
             continue;
-        const auto at = std::ranges::find(known.seconds, stage, [](auto& s) { return s.first; });
-        seconds = at == known.seconds.end() ? 0 : at->second;
+        const auto found = std::ranges::find(known.seconds, stage, [](auto& s) { return s.first; });
+        seconds = found == known.seconds.end() ? 0 : found->second;
     }
 }
 

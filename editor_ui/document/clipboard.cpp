@@ -35,22 +35,22 @@ bool canPaste(const EditorState& state) {
 }
 
 /// Moves a light or camera whose coordinates are relative to the origin of another document.
-static void shift(Object& object, glm::vec3 by) {
+static void shift(Object& object, glm::vec3 offset) {
     if (auto* light = std::get_if<Light>(&object))
-        light->position += by;
+        light->position += offset;
     if (auto* camera = std::get_if<Camera>(&object)) {
-        camera->eye += by;
-        camera->target += by;
+        camera->eye += offset;
+        camera->target += offset;
     }
 }
 
 void pasteClipboard(EditorState& state) {
     commitGesture(state);
     ObjectsById pasted;
-    const glm::vec3 by(state.clipboard.origin - state.document.origin);
+    const glm::vec3 offset(state.clipboard.origin - state.document.origin);
     for (const auto& [id, object] : state.clipboard.objects)
         if (fits(state, object))
-            shift(pasted.emplace(id, object).first->second, by);
+            shift(pasted.emplace(id, object).first->second, offset);
     Copies copies = copiesOf(state.document, pasted);
     const std::size_t count = copies.objects.size();
     Edit edit{count == 1 ? "Paste " + objectName(copies.objects.begin()->second)

@@ -25,8 +25,8 @@ static void commit(EditorState& state, const ObjectsById& after) {
 static ObjectsById objectsNow(const EditorState& state, const ObjectsById& seen) {
     ObjectsById now;
     for (const auto& [id, before] : state.gesture->before) {
-        const auto at = seen.find(id);
-        now.emplace(id, at == seen.end() ? state.document.objects.at(id) : at->second);
+        const auto found = seen.find(id);
+        now.emplace(id, found == seen.end() ? state.document.objects.at(id) : found->second);
     }
     return now;
 }

@@ -33,16 +33,19 @@ static glm::dmat4 parentToWorld(const Document& document, const Node& node) {
     return Placements(document).of(node.parent).toWorld;
 }
 
-static glm::dvec3 movedPoint(const Manipulation& by, glm::dvec3 p) {
-    const glm::dmat3 axes(by.axes);
-    const glm::dvec3 from = p - glm::dvec3(by.pivot);
-    const glm::dvec3 scaled = axes * (glm::dvec3(by.scale) * (glm::transpose(axes) * from));
-    return glm::dvec3(by.pivot) + glm::dquat(by.turn) * scaled + glm::dvec3(by.move);
+static glm::dvec3 movedPoint(const Manipulation& manipulation, glm::dvec3 p) {
+    const glm::dmat3 axes(manipulation.axes);
+    const glm::dvec3 from = p - glm::dvec3(manipulation.pivot);
+    const glm::dvec3 scaled =
+        axes * (glm::dvec3(manipulation.scale) * (glm::transpose(axes) * from));
+    return glm::dvec3(manipulation.pivot) + glm::dquat(manipulation.turn) * scaled +
+           glm::dvec3(manipulation.move);
 }
 
 /// What the scale does to lengths along a unit vector; negative where it mirrors it.
-static float factorAlong(const Manipulation& by, glm::vec3 axis) {
-    const glm::vec3 inAxes = glm::transpose(by.axes) * axis, scaled = by.scale * inAxes;
+static float factorAlong(const Manipulation& manipulation, glm::vec3 axis) {
+    const glm::vec3 inAxes = glm::transpose(manipulation.axes) * axis,
+                    scaled = manipulation.scale * inAxes;
     return glm::dot(inAxes, scaled) < 0 ? -glm::length(scaled) : glm::length(scaled);
 }
 
@@ -54,28 +57,31 @@ static float limitedScale(float scale, float factor) {
     return std::copysign(limited, wanted);
 }
 
-static bool turns(const Manipulation& by) {
-    return by.turn != glm::quat(1, 0, 0, 0);
+static bool turns(const Manipulation& manipulation) {
+    return manipulation.turn != glm::quat(1, 0, 0, 0);
 }
 
-static void manipulate(const Document& document, Node& node, const Manipulation& by) {
+static void manipulate(const Document& document, Node& node, const Manipulation& manipulation) {
     const glm::dmat4 parent = parentToWorld(document, node);
     const glm::dmat3 linear(parent);
     Transform& t = node.transform;
-    const glm::dvec3 from = parent * glm::dvec4(t.translation, 1), to = movedPoint(by, from);
+    const glm::dvec3 from = parent * glm::dvec4(t.translation, 1),
+                     to = movedPoint(manipulation, from);
     if (to != from)
         t.translation += glm::inverse(linear) * (to - from);
-    if (by.scale != glm::vec3(1)) {
+    if (manipulation.scale != glm::vec3(1)) {
         const glm::dmat3 axes = linear * glm::mat3_cast(glm::dquat(t.rotation));
         for (int i = 0; i < 3; ++i)
             t.scale[i] = limitedScale(
-                t.scale[i], by.alongOwnAxes ? by.scale[i]
-                                            : factorAlong(by, glm::vec3(glm::normalize(axes[i]))));
+                t.scale[i], manipulation.alongOwnAxes
+                                ? manipulation.scale[i]
+                                : factorAlong(manipulation, glm::vec3(glm::normalize(axes[i]))));
     }
-    if (turns(by)) {
+    if (turns(manipulation)) {
         const glm::dquat toWorld = glm::quat_cast(nearestRotation(linear));
-        t.rotation = glm::quat(glm::normalize(glm::inverse(toWorld) * glm::dquat(by.turn) *
-                                              toWorld * glm::dquat(t.rotation)));
+        t.rotation =
+            glm::quat(glm::normalize(glm::inverse(toWorld) * glm::dquat(manipulation.turn) *
+                                     toWorld * glm::dquat(t.rotation)));
     }
 }
 
@@ -87,38 +93,41 @@ static float rollTowards(Light light, glm::vec3 width) {
                       glm::dot(width, glm::normalize(r.halfWidth)));
 }
 
-static void manipulate(const Document& document, Light& light, const Manipulation& by) {
+static void manipulate(const Document& document, Light& light, const Manipulation& manipulation) {
     const bool rectangle = light.kind == LightKind::Rectangle;
     const glm::mat3 axes = ownAxes(document, light);
-    light.position = glm::vec3(movedPoint(by, light.position));
-    if (rectangle && by.scale != glm::vec3(1))
+    light.position = glm::vec3(movedPoint(manipulation, light.position));
+    if (rectangle && manipulation.scale != glm::vec3(1))
         for (int i = 0; i < 2; ++i)
-            light.size[i] = std::clamp(
-                light.size[i] * std::abs(by.alongOwnAxes ? by.scale[i] : factorAlong(by, axes[i])),
-                kMinLightSize, kMaxLightSize);
-    if (!turns(by) || light.kind == LightKind::Point)
+            light.size[i] =
+                std::clamp(light.size[i] * std::abs(manipulation.alongOwnAxes
+                                                        ? manipulation.scale[i]
+                                                        : factorAlong(manipulation, axes[i])),
+                           kMinLightSize, kMaxLightSize);
+    if (!turns(manipulation) || light.kind == LightKind::Point)
         return;
-    light.direction = glm::normalize(by.turn * light.direction);
+    light.direction = glm::normalize(manipulation.turn * light.direction);
     if (rectangle)
-        light.roll = rollTowards(light, by.turn * axes[0]);
+        light.roll = rollTowards(light, manipulation.turn * axes[0]);
 }
 
-static void manipulate(const Document&, Camera& camera, const Manipulation& by) {
+static void manipulate(const Document&, Camera& camera, const Manipulation& manipulation) {
     const glm::vec3 ahead = camera.target - camera.eye;
-    camera.eye = glm::vec3(movedPoint(by, camera.eye));
-    camera.target = camera.eye + by.turn * ahead;
-    if (turns(by))
-        camera.up = glm::normalize(by.turn * camera.up);
+    camera.eye = glm::vec3(movedPoint(manipulation, camera.eye));
+    camera.target = camera.eye + manipulation.turn * ahead;
+    if (turns(manipulation))
+        camera.up = glm::normalize(manipulation.turn * camera.up);
 }
 
-Object manipulated(const Document& document, const Object& object, const Manipulation& by) {
+Object manipulated(const Document& document, const Object& object,
+                   const Manipulation& manipulation) {
     Object after = object;
     if (auto* node = std::get_if<Node>(&after))
-        manipulate(document, *node, by);
+        manipulate(document, *node, manipulation);
     else if (auto* light = std::get_if<Light>(&after))
-        manipulate(document, *light, by);
+        manipulate(document, *light, manipulation);
     else if (auto* camera = std::get_if<Camera>(&after))
-        manipulate(document, *camera, by);
+        manipulate(document, *camera, manipulation);
     return isValid(after) ? after : object;
 }
 

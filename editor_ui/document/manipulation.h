@@ -27,7 +27,8 @@ inline constexpr float kMinNodeScale = 1e-6f, kMaxNodeScale = 1e6f;
 /// not its own, its place is exact and its rotation and scale come as near as they can. Scaling
 /// changes the size of rectangle lights; of other lights and of cameras it changes the place alone.
 /// Returns `object` itself where the result would not be valid.
-Object manipulated(const Document& document, const Object& object, const Manipulation& by);
+Object manipulated(const Document& document, const Object& object,
+                   const Manipulation& manipulation);
 
 /// `transform` followed by `matrix`, within what a transform can be: as manipulated() says of
 /// parents that are scaled unevenly.

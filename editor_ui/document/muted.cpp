@@ -18,14 +18,14 @@ static void muteSurfaces(Scene& scene, const std::set<ObjectId>& muted) {
     for (Instance& instance : scene.instances) {
         if (!muted.contains(instance.node))
             continue;
-        const auto [at, added] =
+        const auto [entry, added] =
             black.emplace(instance.material, std::uint32_t(scene.materials.size()));
         if (added) {
             Material copy = scene.materials[instance.material];
             copy.baseColor = {0, 0, 0, copy.baseColor.w};
             scene.materials.push_back(std::move(copy));
         }
-        instance.material = at->second;
+        instance.material = entry->second;
     }
 }
 

@@ -111,8 +111,8 @@ static std::string readText(const Json& in, const char* key) {
 template <class T, class Names>
 static void readName(const Json& in, const char* key, const Names& names, T& value) {
     const std::string text = readText(in, key);
-    if (const auto at = std::ranges::find(names, text); at != names.end())
-        value = T(std::distance(names.begin(), at));
+    if (const auto found = std::ranges::find(names, text); found != names.end())
+        value = T(std::distance(names.begin(), found));
 }
 
 static void readWorkspace(const Json& in, WorkspaceState& w) {

@@ -112,12 +112,12 @@ bool FileJob::open(std::string what) {
     });
 }
 
-bool FileJob::recover(std::string copy, std::string of) {
-    return start([this, copy = std::move(copy), of = std::move(of)] {
+bool FileJob::recover(std::string copy, std::string originalPath) {
+    return start([this, copy = std::move(copy), originalPath = std::move(originalPath)] {
         Progress progress;
         progress.cancel = &m_cancel;
-        auto opened =
-            openedFile(of, loadProject(copy, progress, m_options), m_projectsFolder, m_options);
+        auto opened = openedFile(originalPath, loadProject(copy, progress, m_options),
+                                 m_projectsFolder, m_options);
         if (opened)
             opened->recovered = true;
         const std::lock_guard lock(m_mutex);

@@ -49,9 +49,9 @@ public:
 
     /// Each of these starts its work and returns true, or returns false while another is running.
     bool open(std::string what);
-    /// Reads `copy`, a project that holds unsaved changes of the project or scene at `of`. Its
-    /// result is that of open(of) with these changes.
-    bool recover(std::string copy, std::string of);
+    /// Reads `copy`, a project that holds unsaved changes of the project or scene at
+    /// `originalPath`. Its result is that of open(originalPath) with these changes.
+    bool recover(std::string copy, std::string originalPath);
     bool openSkyImage(std::string path);
     /// Reads what an AssetFile::path names, after `before`.
     bool add(std::shared_ptr<const Assets> before, std::string path);

@@ -22,9 +22,9 @@ static LightmapLayout layoutFor(const Scene& scene, const Scene& baked,
     for (std::size_t i = 0; i < baked.instances.size(); ++i)
         known.emplace(std::pair(baked.instances[i].node, baked.instances[i].mesh), i);
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
-        if (const auto at = known.find({scene.instances[i].node, scene.instances[i].mesh});
-            at != known.end())
-            fitted.instances[i] = layout.instances[at->second];
+        if (const auto found = known.find({scene.instances[i].node, scene.instances[i].mesh});
+            found != known.end())
+            fitted.instances[i] = layout.instances[found->second];
     return fitted;
 }
 

@@ -14,7 +14,7 @@ void OtherTechnique::set(const std::string& technique, const std::shared_ptr<con
                          const BakedScene& baked, const Viewpoint& view) {
     if (technique.empty()) {
         m_job = nullptr;
-        m_of = nullptr;
+        m_documentScene = nullptr;
         m_lit = {};
         m_relit = {};
         return;
@@ -27,12 +27,13 @@ void OtherTechnique::set(const std::string& technique, const std::shared_ptr<con
         m_bake = baked.bake;
         m_job->setBake(baked);
     }
-    if (m_of != scene || m_lit.scene->technique.technique != technique) {
+    if (m_documentScene != scene || m_lit.scene->technique.technique != technique) {
         auto other = std::make_shared<Scene>(*scene);
         other->technique.technique = technique;
-        const bool sameLayout = m_of && sameBake && sameInstanceList(*m_of, *scene) &&
+        const bool sameLayout = m_documentScene && sameBake &&
+                                sameInstanceList(*m_documentScene, *scene) &&
                                 m_lit.scene->technique.technique == technique;
-        m_of = scene;
+        m_documentScene = scene;
         m_lit.scene = std::move(other);
         if (!sameLayout)
             m_lit.layout = layoutOf(*m_lit.scene, baked);

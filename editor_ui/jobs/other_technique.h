@@ -38,8 +38,8 @@ public:
 
 private:
     std::function<void()> m_wake;
-    std::unique_ptr<RelightJob> m_job; ///< null: no technique is set
-    std::shared_ptr<const Scene> m_of; ///< the document's scene in m_lit
+    std::unique_ptr<RelightJob> m_job;            ///< null: no technique is set
+    std::shared_ptr<const Scene> m_documentScene; ///< the document's scene in m_lit
     std::shared_ptr<const Precomputed> m_bake;
     ShownScene m_lit;
     Relit m_relit;

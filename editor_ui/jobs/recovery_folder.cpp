@@ -47,9 +47,9 @@ Result<RecoveryFolder> createRecoveryFolder(const std::string& root) {
     return folder;
 }
 
-Result<void> writeRecovery(const RecoveryFolder& folder, const std::string& of,
+Result<void> writeRecovery(const RecoveryFolder& folder, const std::string& originalPath,
                            const Document& document) {
-    const Result<void> named = replaceFile(folder.path + "/of", of);
+    const Result<void> named = replaceFile(folder.path + "/of", originalPath);
     return named ? saveProject(folder.path + "/document.limn", document) : named;
 }
 
@@ -66,7 +66,7 @@ static std::time_t writtenAt(const fs::path& folder) {
     return stat((folder / "document.limn").c_str(), &status) == 0 ? status.st_mtime : 0;
 }
 
-std::optional<Recovery> findRecovery(const std::string& root, const std::string& of) {
+std::optional<Recovery> findRecovery(const std::string& root, const std::string& originalPath) {
     std::error_code error;
     std::vector<std::pair<std::time_t, fs::path>> found;
     const fs::path real = fs::canonical(root, error);
@@ -79,7 +79,7 @@ std::optional<Recovery> findRecovery(const std::string& root, const std::string&
     std::ranges::sort(found, std::greater());
     for (const auto& [written, folder] : found) {
         const Result<std::string> name = readFile((folder / "of").string(), 1 << 16);
-        if (!name || (!of.empty() && *name != of))
+        if (!name || (!originalPath.empty() && *name != originalPath))
             continue;
         Recovery recovery{{folder.string(), lockIn(folder)}, *name, writtenAt(folder)};
         if (recovery.folder.lock && recovery.written) // else its editor has just deleted it

@@ -23,8 +23,8 @@ struct RecoveryFolder {
 /// The unsaved document of an editor that has ended. Whoever holds it has the lock.
 struct Recovery {
     RecoveryFolder folder;
-    std::string of;          ///< path of the project, or of the scene that was never saved as one
-    std::time_t written = 0; ///< when the copy was written
+    std::string originalPath; ///< path of the project, or of the scene that was never saved as one
+    std::time_t written = 0;  ///< when the copy was written
 
     std::string documentPath() const { return folder.path + "/document.limn"; }
 };
@@ -33,14 +33,15 @@ struct Recovery {
 Result<RecoveryFolder> createRecoveryFolder(const std::string& root);
 
 /// Replaces the copy in `folder` atomically. The document stays valid as it was on failure.
-Result<void> writeRecovery(const RecoveryFolder& folder, const std::string& of,
+Result<void> writeRecovery(const RecoveryFolder& folder, const std::string& originalPath,
                            const Document& document);
 
 /// Deletes the folder and everything in it, then unlocks it.
 void removeRecovery(RecoveryFolder& folder);
 
-/// The newest copy in `root` that no running editor holds, of the document `of`; of any document
-/// where `of` is empty. Nothing where there is none or `root` cannot be read.
-std::optional<Recovery> findRecovery(const std::string& root, const std::string& of);
+/// The newest copy in `root` that no running editor holds, of the project or scene at
+/// `originalPath`; of any document where that is empty. Nothing where there is none or `root`
+/// cannot be read.
+std::optional<Recovery> findRecovery(const std::string& root, const std::string& originalPath);
 
 } // namespace limn

@@ -37,8 +37,8 @@ void RecoveryJob::set(Copy copy) {
     m_changed.notify_all();
 }
 
-void RecoveryJob::keep(std::shared_ptr<const Document> document, const std::string& of) {
-    set({std::move(document), of});
+void RecoveryJob::keep(std::shared_ptr<const Document> document, const std::string& originalPath) {
+    set({std::move(document), originalPath});
 }
 
 void RecoveryJob::adopt(Recovery recovery, std::shared_ptr<const Document> document) {
@@ -46,7 +46,7 @@ void RecoveryJob::adopt(Recovery recovery, std::shared_ptr<const Document> docum
         const std::lock_guard lock(m_mutex);
         m_adopted = std::move(recovery.folder);
     }
-    set({std::move(document), std::move(recovery.of)});
+    set({std::move(document), std::move(recovery.originalPath)});
 }
 
 void RecoveryJob::clear() {
@@ -69,7 +69,7 @@ Result<void> RecoveryJob::write(RecoveryFolder& folder, const Copy& copy) const 
             return tl::make_unexpected(created.error());
         folder = std::move(*created);
     }
-    return writeRecovery(folder, copy.of, *copy.document);
+    return writeRecovery(folder, copy.originalPath, *copy.document);
 }
 
 void RecoveryJob::run() {

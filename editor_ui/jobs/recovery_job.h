@@ -27,9 +27,9 @@ public:
     RecoveryJob(const RecoveryJob&) = delete;
     RecoveryJob& operator=(const RecoveryJob&) = delete;
 
-    /// Keeps a copy of `document`, of the file or scene at the path `of`. Documents are compared by
-    /// their address.
-    void keep(std::shared_ptr<const Document> document, const std::string& of);
+    /// Keeps a copy of `document`, which is a changed version of the project or scene at
+    /// `originalPath`. Documents are compared by their address.
+    void keep(std::shared_ptr<const Document> document, const std::string& originalPath);
     /// Goes on with the folder of a recovered document, which is `document` now.
     void adopt(Recovery recovery, std::shared_ptr<const Document> document);
     /// Deletes the copy: the document is as in its file, or nobody wants it.
@@ -41,7 +41,7 @@ public:
 private:
     struct Copy {
         std::shared_ptr<const Document> document; ///< null: none
-        std::string of;
+        std::string originalPath;
 
         bool operator==(const Copy&) const = default;
     };

@@ -80,11 +80,11 @@ void addObjects(const Scene& baked, const Scene& now, const Document& document, 
         before.emplace(std::pair(instance.node, instance.mesh), &instance);
     ObjectId named = 0; // a node of many meshes is one object
     for (const Instance& instance : now.instances) {
-        const auto at = before.find({instance.node, instance.mesh});
+        const auto found = before.find({instance.node, instance.mesh});
         const std::string_view what =
-            at == before.end() ? "was added or shown" : difference(*at->second, instance);
-        if (at != before.end())
-            before.erase(at);
+            found == before.end() ? "was added or shown" : difference(*found->second, instance);
+        if (found != before.end())
+            before.erase(found);
         if (!what.empty() && instance.node != named)
             list.add(nameIn(document, named = instance.node), what);
     }

@@ -64,9 +64,9 @@ void stageRows(const BakeStatus& bake) {
     for (std::size_t i = 0; i < measured.size(); ++i) {
         const std::string& stage = measured[i].first;
         label(("    " + stage).c_str(), "A stage of the bake");
-        const auto at = std::ranges::find(bake.expected.seconds, stage,
-                                          [](const auto& entry) { return entry.first; });
-        number(at == bake.expected.seconds.end() ? kUnknown : secondsText(at->second));
+        const auto found = std::ranges::find(bake.expected.seconds, stage,
+                                             [](const auto& entry) { return entry.first; });
+        number(found == bake.expected.seconds.end() ? kUnknown : secondsText(found->second));
         if (contains(bake.last.keptStages, stage))
             number("kept", "Found in the store of finished stages, which took no new work");
         else

@@ -62,9 +62,9 @@ static void sideLabels(const ViewState& view, float x, const std::string& left,
 /// Draws text at the left edge of the picture, its lower end `above` pixels above the picture's.
 /// Returns `above` for another text on top of it.
 static float footLabel(const ViewState& view, const std::string& text, ImU32 ink, float above) {
-    const ImVec2 at(view.origin.x + 12, view.origin.y + view.size.y - above);
+    const ImVec2 position(view.origin.x + 12, view.origin.y + view.size.y - above);
     const float width = std::max(view.size.x - 24, 1.f);
-    return above + 5 + pictureLabel(at, {0, 1}, text, ink, width).y;
+    return above + 5 + pictureLabel(position, {0, 1}, text, ink, width).y;
 }
 
 static std::string referenceText(const ReferenceStatus& r) {

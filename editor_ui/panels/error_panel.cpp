@@ -17,14 +17,14 @@ namespace limn {
 
 namespace {
 
-/// Of the plot: from 0 to `seconds` and from 0 to `most`.
+/// Of the plot: from 0 to `seconds` and from 0 to `maxError`.
 struct Plot {
     ImVec2 from, to; ///< [px]
-    double seconds = 1, most = 1;
+    double seconds = 1, maxError = 1;
 
     ImVec2 at(double x, double y) const {
         return {from.x + float(x / seconds) * (to.x - from.x),
-                to.y - float(std::min(y / most, 1.0)) * (to.y - from.y)};
+                to.y - float(std::min(y / maxError, 1.0)) * (to.y - from.y)};
     }
 };
 
@@ -50,13 +50,13 @@ static void drawCurve(const Plot& plot, const std::vector<ErrorHistory::Point>& 
     const float width = 2 * uiScale();
     for (std::size_t i = 0; i < points.size(); ++i) {
         const ErrorHistory::Point& p = points[i];
-        const ImVec2 at = plot.at(p.seconds, p.nrmse);
+        const ImVec2 point = plot.at(p.seconds, p.nrmse);
         list.AddLine(plot.at(p.seconds, p.nrmse - std::min(p.noise, p.nrmse)),
                      plot.at(p.seconds, p.nrmse + p.noise), color::dim(), width / 2);
         if (i > 0)
-            list.AddLine(plot.at(points[i - 1].seconds, points[i - 1].nrmse), at, color::accent(),
-                         width);
-        list.AddCircleFilled(at, 1.5f * width, color::accent());
+            list.AddLine(plot.at(points[i - 1].seconds, points[i - 1].nrmse), point,
+                         color::accent(), width);
+        list.AddCircleFilled(point, 1.5f * width, color::accent());
     }
 }
 
@@ -64,11 +64,11 @@ static void drawAxes(const Plot& plot) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float gap = 4 * uiScale(), line = ImGui::GetTextLineHeight();
     list.AddRectFilled(plot.from, plot.to, ImGui::GetColorU32(ImGuiCol_FrameBg, 0.5f));
-    const auto text = [&](ImVec2 at, float alignment, const std::string& words) {
-        at.x -= alignment * ImGui::CalcTextSize(words.c_str()).x;
-        list.AddText(at, color::dim(), words.c_str());
+    const auto text = [&](ImVec2 position, float alignment, const std::string& words) {
+        position.x -= alignment * ImGui::CalcTextSize(words.c_str()).x;
+        list.AddText(position, color::dim(), words.c_str());
     };
-    text({plot.from.x - gap, plot.from.y}, 1, fmt::format("{:g}", plot.most));
+    text({plot.from.x - gap, plot.from.y}, 1, fmt::format("{:g}", plot.maxError));
     text({plot.from.x - gap, plot.to.y - line}, 1, "0");
     text({plot.from.x, plot.to.y + gap}, 0, "0 s");
     text({plot.to.x, plot.to.y + gap}, 1, durationText(plot.seconds));
@@ -79,14 +79,14 @@ static void drawPlot(const std::vector<ErrorHistory::Point>& points) {
     const ImVec2 origin = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
     const float left = ImGui::CalcTextSize("0.0005").x + 8 * uiScale();
     const ImVec2 size(std::max(room.x - left, 1.f), std::max(room.y - line, 2 * line));
-    double most = 0;
+    double maxError = 0;
     for (const ErrorHistory::Point& p : points)
-        most = std::max(most, p.nrmse + p.noise);
+        maxError = std::max(maxError, p.nrmse + p.noise);
     const ImVec2 from(origin.x + left, origin.y);
     const Plot plot{from,
                     {from.x + size.x, from.y + size.y},
                     std::max(points.back().seconds, 1.0),
-                    roundUp(most)};
+                    roundUp(maxError)};
     drawAxes(plot);
     drawCurve(plot, points);
     ImGui::SetCursorScreenPos(from);

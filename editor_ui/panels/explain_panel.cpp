@@ -61,16 +61,17 @@ ObjectId objectOf(const ExplainedPixel& pixel, const std::vector<LightRow>& rows
 /// The hue of light at full brightness, in sRGB.
 ImU32 hueOf(glm::vec3 light) {
     const glm::vec3 positive = glm::max(light, glm::vec3(0));
-    const float most = std::max({positive.x, positive.y, positive.z});
-    const glm::vec3 c = most > 0 ? glm::pow(positive / most, glm::vec3(1 / 2.2f)) : glm::vec3(0);
+    const float maximum = std::max({positive.x, positive.y, positive.z});
+    const glm::vec3 c =
+        maximum > 0 ? glm::pow(positive / maximum, glm::vec3(1 / 2.2f)) : glm::vec3(0);
     return ImGui::ColorConvertFloat4ToU32({c.x, c.y, c.z, 1});
 }
 
 void swatch(glm::vec3 light) {
     const float side = ImGui::GetTextLineHeight();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const ImVec2 from(at.x, at.y + 2), to(at.x + side, at.y + side - 1);
+    const ImVec2 from(corner.x, corner.y + 2), to(corner.x + side, corner.y + side - 1);
     list.AddRectFilled(from, to, hueOf(light), 2);
     list.AddRect(from, to, color::dim(), 2);
     ImGui::Dummy({side, side});
@@ -82,10 +83,11 @@ std::string rgbText(glm::vec3 light) {
 }
 
 void shareBar(double share) {
-    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight();
     const float filled = width * float(std::clamp(share, 0., 1.));
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 1}, {at.x + filled, at.y + height},
+    ImGui::GetWindowDrawList()->AddRectFilled({corner.x, corner.y + 1},
+                                              {corner.x + filled, corner.y + height},
                                               (color::accent() & 0x00ffffffU) | 0x70000000U, 2);
     ImGui::Text("%5.1f %%", 100 * share);
 }
@@ -95,9 +97,9 @@ ObjectId mutedBy(const EditorState& state, const ExplainedPixel& pixel,
                  const std::vector<LightRow>& rows, const LightRow& row) {
     ObjectId id = 0;
     if (row.kind == LightRowKind::Sky) {
-        for (const auto& [at, object] : state.document.objects)
+        for (const auto& [key, object] : state.document.objects)
             if (std::holds_alternative<Sky>(object))
-                id = at;
+                id = key;
     } else if (row.kind == LightRowKind::Light || row.kind == LightRowKind::Surface) {
         id = objectOf(pixel, rows, row);
     }
@@ -109,7 +111,7 @@ ObjectId mutedBy(const EditorState& state, const ExplainedPixel& pixel,
 void muteButton(ExplainState& explain, ObjectId id, bool emits) {
     const bool muted = explain.muted.contains(id);
     const float side = ImGui::GetTextLineHeight();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     if (ImGui::InvisibleButton("mute", {side * 1.5f, side})) {
         if (muted)
             explain.muted.erase(id);
@@ -118,7 +120,7 @@ void muteButton(ExplainState& explain, ObjectId id, bool emits) {
     }
     const bool hovered = ImGui::IsItemHovered();
     drawIcon(*ImGui::GetWindowDrawList(), muted ? Icon::Hidden : Icon::Shown,
-             {at.x + side * 0.75f, at.y + side / 2}, side,
+             {corner.x + side * 0.75f, corner.y + side / 2}, side,
              muted     ? color::warning()
              : hovered ? ImGui::GetColorU32(ImGuiCol_Text)
                        : color::dim());

@@ -49,18 +49,18 @@ void fieldLabel(const char* label, const char* tooltip) {
 void markMixed() {
     // A sign of "not equal", drawn because fonts may lack it.
     const float h = ImGui::GetFontSize(), w = h * 0.5f;
-    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::Dummy({w, ImGui::GetFrameHeight()});
     wrappedTooltip("The selected objects have different values here; the one shown is that of the "
                    "object selected last");
-    const float middle = at.y + ImGui::GetFrameHeight() / 2;
+    const float middle = corner.y + ImGui::GetFrameHeight() / 2;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImU32 ink = color::warning();
     const float line = std::max(h / 12, 1.f);
     for (const float side : {-0.12f, 0.12f})
-        list.AddLine({at.x, middle + side * h}, {at.x + w, middle + side * h}, ink, line);
-    list.AddLine({at.x + w * 0.2f, middle + 0.3f * h}, {at.x + w * 0.8f, middle - 0.3f * h}, ink,
-                 line);
+        list.AddLine({corner.x, middle + side * h}, {corner.x + w, middle + side * h}, ink, line);
+    list.AddLine({corner.x + w * 0.2f, middle + 0.3f * h}, {corner.x + w * 0.8f, middle - 0.3f * h},
+                 ink, line);
     ImGui::SameLine(0, h * 0.25f);
 }
 

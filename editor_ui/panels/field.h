@@ -33,10 +33,10 @@ void markMixed();
 /// Objects of type T that the edit goes to differ in `get`, a member of T or a function of one.
 template <class T, class Get>
 bool isMixed(const FieldEdit& edit, const Get& get) {
-    const T& own = std::get<T>(edit.objects().at(edit.id));
+    const T& shown = std::get<T>(edit.objects().at(edit.id));
     return std::ranges::any_of(edit.others, [&](ObjectId id) {
         const T* other = std::get_if<T>(&edit.objects().at(id));
-        return other && std::invoke(get, *other) != std::invoke(get, own);
+        return other && std::invoke(get, *other) != std::invoke(get, shown);
     });
 }
 

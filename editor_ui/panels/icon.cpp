@@ -152,9 +152,9 @@ void drawIcon(ImDrawList& list, Icon icon, ImVec2 centre, float size, ImU32 colo
 
 void iconItem(Icon icon, ImU32 color) {
     const float h = ImGui::GetTextLineHeight();
-    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::Dummy({h, h});
-    drawIcon(*ImGui::GetWindowDrawList(), icon, {at.x + h / 2, at.y + h / 2}, h, color);
+    drawIcon(*ImGui::GetWindowDrawList(), icon, {corner.x + h / 2, corner.y + h / 2}, h, color);
 }
 
 } // namespace limn

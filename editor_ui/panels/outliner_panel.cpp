@@ -89,14 +89,14 @@ static std::vector<Row> visibleRows(const EditorState& state) {
     const std::string filter = lowered(state.outliner.filter);
     std::vector<Row> rows;
     const auto section = [&](const char* heading, const auto& fill) {
-        const std::size_t at = rows.size();
+        const std::size_t headingIndex = rows.size();
         rows.push_back({0, heading});
         fill(state, filter, rows);
-        rows[at].count = rows.size() - at - 1;
-        if (rows[at].count == 0)
+        rows[headingIndex].count = rows.size() - headingIndex - 1;
+        if (rows[headingIndex].count == 0)
             rows.pop_back();
         else if (isClosed(state, heading))
-            rows.resize(at + 1);
+            rows.resize(headingIndex + 1);
     };
     section("Lights", rowsOfKind<Light>);
     section("Objects", nodeRows);
@@ -131,8 +131,8 @@ static bool isSelected(const EditorState& state, ObjectId id) {
 }
 
 static void selectRange(EditorState& state, const std::vector<Row>& rows, ObjectId to) {
-    const auto at = [&](ObjectId id) { return std::ranges::find(rows, id, &Row::id); };
-    auto first = at(state.outliner.anchor), last = at(to);
+    const auto rowOf = [&](ObjectId id) { return std::ranges::find(rows, id, &Row::id); };
+    auto first = rowOf(state.outliner.anchor), last = rowOf(to);
     if (first == rows.end() || last == rows.end())
         return;
     if (last < first)
@@ -176,10 +176,10 @@ static void nameField(EditorState& state, ObjectId id) {
         state.outliner.focusName = false;
 }
 
-/// A triangle that points right if `collapsed`, else down, in a line of text at `at` [px].
-static void triangle(ImVec2 at, bool collapsed) {
+/// A triangle that points right if `collapsed`, else down, in a line of text at `corner` [px].
+static void triangle(ImVec2 corner, bool collapsed) {
     const float h = ImGui::GetTextLineHeight();
-    const ImVec2 c(at.x + h * 0.4f, at.y + h * 0.5f);
+    const ImVec2 c(corner.x + h * 0.4f, corner.y + h * 0.5f);
     const float r = h * 0.22f;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     if (collapsed)
@@ -197,14 +197,14 @@ static void expander(EditorState& state, const Row& row) {
         return;
     }
     const bool collapsed = state.outliner.collapsed.contains(row.id);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     if (ImGui::InvisibleButton("##expand", {h * 0.8f, h})) {
         if (collapsed)
             state.outliner.collapsed.erase(row.id);
         else
             state.outliner.collapsed.insert(row.id);
     }
-    triangle(at, collapsed);
+    triangle(corner, collapsed);
 }
 
 static bool isShown(const Object& object) {
@@ -218,12 +218,12 @@ static bool isShown(const Object& object) {
 static void eyeButton(EditorState& state, ObjectId id, const Object& object) {
     const float h = ImGui::GetTextLineHeight();
     ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - h);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
     const bool shown = isShown(object);
     const bool pressed = ImGui::InvisibleButton("##eye", {h, h});
     const bool hovered = ImGui::IsItemHovered();
     drawIcon(*ImGui::GetWindowDrawList(), shown ? Icon::Shown : Icon::Hidden,
-             {at.x + h / 2, at.y + h / 2}, h * 0.9f,
+             {corner.x + h / 2, corner.y + h / 2}, h * 0.9f,
              hovered ? ImGui::GetColorU32(ImGuiCol_Text) : color::dim());
     wrappedTooltip(shown ? "Shown. Click to hide (H)" : "Hidden. Click to show (H)");
     if (!pressed)
@@ -325,12 +325,12 @@ static void objectRow(EditorState& state, const std::vector<Row>& rows, const Ro
 /// Opens or closes its section when clicked.
 static void headingRow(EditorState& state, const Row& row) {
     const float h = ImGui::GetTextLineHeight();
-    const ImVec2 start = ImGui::GetCursorPos(), at = ImGui::GetCursorScreenPos();
+    const ImVec2 start = ImGui::GetCursorPos(), corner = ImGui::GetCursorScreenPos();
     std::set<std::string>& closed = state.outliner.closed;
     if (ImGui::Selectable((std::string("##") + row.heading).c_str(), false, 0, {0, h}) &&
         !closed.erase(row.heading))
         closed.insert(row.heading);
-    triangle(at, isClosed(state, row.heading));
+    triangle(corner, isClosed(state, row.heading));
     ImGui::SetCursorPos({start.x + h, start.y});
     ImGui::PushStyleColor(ImGuiCol_Text, color::dim());
     ImGui::Text("%s  %zu", row.heading, row.count);

@@ -110,8 +110,8 @@ void overlayNumbers(EditorState& state) {
     OverlayState& overlay = state.overlay;
     if (!overlay.options.kind || !isMadeOf(*overlay.options.kind, overlay.source.get()))
         return;
-    const ImVec2 at = ImGui::GetIO().MousePos;
-    const glm::vec2 mouse(at.x, at.y);
+    const ImVec2 cursor = ImGui::GetIO().MousePos;
+    const glm::vec2 mouse(cursor.x, cursor.y);
     OverlayHover& hover = overlay.hover;
     if (hover.mouse != mouse || hover.camera != state.view.camera ||
         hover.options != overlay.options || hover.source != overlay.source ||
@@ -127,8 +127,8 @@ void overlayNumbers(EditorState& state) {
     const glm::vec2 middle = state.view.origin + state.view.size / 2.f;
     const ImVec2 align(mouse.x > middle.x ? 1.f : 0.f, mouse.y > middle.y ? 1.f : 0.f);
     const float away = std::round(ImGui::GetFontSize());
-    pictureLabel({at.x + (align.x > 0 ? -away : away), at.y + (align.y > 0 ? -away : away)}, align,
-                 hover.text, IM_COL32_WHITE, 0, {.margin = {8, 4}});
+    pictureLabel({cursor.x + (align.x > 0 ? -away : away), cursor.y + (align.y > 0 ? -away : away)},
+                 align, hover.text, IM_COL32_WHITE, 0, {.margin = {8, 4}});
 }
 
 void overlayCombo(EditorState& state, float width) {
@@ -152,10 +152,10 @@ void overlayCombo(EditorState& state, float width) {
 static void legendRows(const OverlayLegend& legend) {
     const float side = ImGui::GetTextLineHeight();
     for (const OverlayLegend::Entry& entry : legend.entries) {
-        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
         // ImGui's colours are packed the same way.
-        ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 2}, {at.x + side, at.y + side - 1},
-                                                  entry.color, 2);
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            {corner.x, corner.y + 2}, {corner.x + side, corner.y + side - 1}, entry.color, 2);
         ImGui::Dummy({side, side});
         ImGui::SameLine();
         ImGui::TextUnformatted(entry.text.c_str());
@@ -167,9 +167,9 @@ static void legendRows(const OverlayLegend& legend) {
 }
 
 static void depthRow(OverlayState& overlay) {
-    const std::uint32_t least = 0;
+    const std::uint32_t minDepth = 0;
     ImGui::SetNextItemWidth(-FLT_MIN);
-    ImGui::SliderScalar("##depth", ImGuiDataType_U32, &overlay.options.depth, &least,
+    ImGui::SliderScalar("##depth", ImGuiDataType_U32, &overlay.options.depth, &minDepth,
                         &overlay.maxDepth, "Depth %u", ImGuiSliderFlags_AlwaysClamp);
     wrappedTooltip("How many steps below the tree's root the clusters lie; 0: the root. "
                    "Ctrl-click to type");

@@ -23,9 +23,9 @@ void recoveryDialog(EditorState& state) {
     ImGui::TextUnformatted("An editor ended before these changes were saved:");
     ImGui::Spacing();
     const float width = ImGui::GetContentRegionAvail().x;
-    elidedText(std::filesystem::path(offer.of).filename().string(), width);
+    elidedText(std::filesystem::path(offer.originalPath).filename().string(), width);
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    elidedText(offer.of, width);
+    elidedText(offer.originalPath, width);
     ImGui::PopStyleColor();
     std::tm local{};
     localtime_r(&offer.written, &local);

@@ -22,9 +22,10 @@ static void row(const char* label, const std::string& value, const char* tooltip
     ImGui::TableNextColumn();
     if (square != 0) {
         const float side = ImGui::GetFontSize() * 0.6f;
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float y = at.y + ImGui::GetFontSize() * 0.25f;
-        ImGui::GetWindowDrawList()->AddRectFilled({at.x, y}, {at.x + side, y + side}, square);
+        const ImVec2 corner = ImGui::GetCursorScreenPos();
+        const float y = corner.y + ImGui::GetFontSize() * 0.25f;
+        ImGui::GetWindowDrawList()->AddRectFilled({corner.x, y}, {corner.x + side, y + side},
+                                                  square);
         ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetFontSize() * 0.85f);
     }
     ImGui::PushStyleColor(ImGuiCol_Text, color::dim());

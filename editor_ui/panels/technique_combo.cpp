@@ -26,13 +26,13 @@ static void useTechnique(EditorState& state, const Technique& technique) {
         }
 }
 
-static void besideItems(EditorState& state, const std::string& own) {
+static void besideItems(EditorState& state, const std::string& chosen) {
     CompareState& compare = state.compare;
     const bool beside = compare.mode == Compare::Technique;
     if (ImGui::Selectable("Nothing", !beside) && beside)
         compare.mode = Compare::Off;
     for (const Technique* technique : techniques()) {
-        if (technique->name == own)
+        if (technique->name == chosen)
             continue;
         const bool shown = beside && compare.technique == technique->name;
         if (ImGui::Selectable((std::string(technique->label) + "##beside").c_str(), shown)) {
@@ -44,9 +44,9 @@ static void besideItems(EditorState& state, const std::string& own) {
 }
 
 void techniqueCombo(EditorState& state, float width) {
-    const std::string own = singleton<TechniqueChoice>(state.document).technique;
-    const Technique* current = findTechnique(own);
-    if (beginBarCombo("##technique", current ? current->label : own,
+    const std::string chosen = singleton<TechniqueChoice>(state.document).technique;
+    const Technique* current = findTechnique(chosen);
+    if (beginBarCombo("##technique", current ? current->label : chosen,
                       "What computes bounced light, and another technique to compare it with",
                       width)) {
         ImGui::TextDisabled("Technique");
@@ -57,7 +57,7 @@ void techniqueCombo(EditorState& state, float width) {
         }
         ImGui::Separator();
         ImGui::TextDisabled("Beside it, right of the line");
-        besideItems(state, own);
+        besideItems(state, chosen);
         ImGui::EndCombo();
     }
     ImGui::SameLine();

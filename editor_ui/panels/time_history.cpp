@@ -33,9 +33,9 @@ void TimeHistory::add(const LightingReport& report) {
     Steps steps{};
     decltype(labels) named{};
     for (std::size_t i = 0; i < report.steps.size(); ++i) {
-        const std::size_t at = std::min(i, steps.size() - 1);
-        steps[at] += float(report.steps[i].ms);
-        named[at] = report.steps[i].label;
+        const std::size_t index = std::min(i, steps.size() - 1);
+        steps[index] += float(report.steps[i].ms);
+        named[index] = report.steps[i].label;
     }
     if (named != labels)
         count = 0; // another technique
@@ -45,16 +45,16 @@ void TimeHistory::add(const LightingReport& report) {
 }
 
 float TimeHistory::longest() const {
-    float most = 0;
+    float maximum = 0;
     for (std::size_t age = 0; age < size(); ++age)
-        most = std::max(most, sumOf(at(age)));
-    return most;
+        maximum = std::max(maximum, sumOf(at(age)));
+    return maximum;
 }
 
 void timeHistory(const TimeHistory& history) {
-    const float most = history.longest(), height = ImGui::GetTextLineHeightWithSpacing() * 6;
+    const float maxMs = history.longest(), height = ImGui::GetTextLineHeightWithSpacing() * 6;
     ImGui::TextUnformatted(
-        history.size() == 0 ? "Updates" : fmt::format("Updates, up to {:.1f} ms", most).c_str());
+        history.size() == 0 ? "Updates" : fmt::format("Updates, up to {:.1f} ms", maxMs).c_str());
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const float width = ImGui::GetContentRegionAvail().x;
     ImGui::InvisibleButton("history", {std::max(width, 1.f), height});
@@ -64,8 +64,8 @@ void timeHistory(const TimeHistory& history) {
     for (std::size_t age = 0; age < history.size(); ++age) {
         const float right = from.x + width - bar * float(age);
         float y = from.y + height;
-        for (std::size_t i = 0; i < kStepColors.size() && most > 0; ++i) {
-            const float top = y - height * history.at(age)[i] / most;
+        for (std::size_t i = 0; i < kStepColors.size() && maxMs > 0; ++i) {
+            const float top = y - height * history.at(age)[i] / maxMs;
             draw.AddRectFilled({right - bar, top}, {right, y}, kStepColors[i]);
             y = top;
         }

@@ -28,7 +28,7 @@ struct AxisEnd {
     int axis;      ///< 0: X
     bool positive; ///< the end that has a letter
     float depth;   ///< towards the viewer, [-1, 1]
-    ImVec2 at;
+    ImVec2 position;
 };
 
 /// Ends of all axes, those further away first.
@@ -52,7 +52,7 @@ const char* actionOf(const AxisEnd& end) {
 
 bool isOver(const AxisEnd& end) {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
-    return glm::distance(glm::vec2(mouse.x, mouse.y), glm::vec2(end.at.x, end.at.y)) <=
+    return glm::distance(glm::vec2(mouse.x, mouse.y), glm::vec2(end.position.x, end.position.y)) <=
            kEnd * uiScale();
 }
 
@@ -63,15 +63,15 @@ void drawEnd(const AxisEnd& end, ImVec2 centre, bool over) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float radius = kEnd * uiScale();
     if (!end.positive) {
-        list.AddCircleFilled(end.at, radius * 0.6f, color::kGround);
-        list.AddCircle(end.at, radius * 0.6f, ink, 0, 1.5f);
+        list.AddCircleFilled(end.position, radius * 0.6f, color::kGround);
+        list.AddCircle(end.position, radius * 0.6f, ink, 0, 1.5f);
         return;
     }
-    list.AddLine(centre, end.at, ink, 2);
-    list.AddCircleFilled(end.at, radius, ink);
+    list.AddLine(centre, end.position, ink, 2);
+    list.AddCircleFilled(end.position, radius, ink);
     const ImVec2 size = ImGui::CalcTextSize(kNames[end.axis]);
-    list.AddText({end.at.x - size.x / 2, end.at.y - size.y / 2}, IM_COL32(15, 16, 18, 255),
-                 kNames[end.axis]);
+    list.AddText({end.position.x - size.x / 2, end.position.y - size.y / 2},
+                 IM_COL32(15, 16, 18, 255), kNames[end.axis]);
 }
 
 /// Label of the work that still refines the picture; empty if there is none.

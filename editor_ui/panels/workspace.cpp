@@ -12,8 +12,8 @@ namespace limn {
 /// The overlay of this name; null if there is none.
 static const OverlayKind* overlayNamed(const std::string& name) {
     const auto kinds = overlayKinds();
-    const auto at = std::ranges::find(kinds, name, [](const OverlayKind* k) { return k->name; });
-    return at == kinds.end() ? nullptr : *at;
+    const auto found = std::ranges::find(kinds, name, [](const OverlayKind* k) { return k->name; });
+    return found == kinds.end() ? nullptr : *found;
 }
 
 static WorkspaceState& kept(WorkspaceStates& states, Workspace workspace) {

@@ -135,18 +135,21 @@ static void typeCharacters(GizmoDrag& drag) {
         typeIntoDrag(drag, c);
 }
 
-static void moveSurface(EditorState& state, const GizmoDrag& drag, const Manipulation& by) {
+static void moveSurface(EditorState& state, const GizmoDrag& drag,
+                        const Manipulation& manipulation) {
     if (!pickedSurface(state))
         return;
     Light point;
     point.position = drag.surface;
-    state.view.picked->position = std::get<Light>(manipulated(state.document, point, by)).position;
+    state.view.picked->position =
+        std::get<Light>(manipulated(state.document, point, manipulation)).position;
 }
 
 /// What the drag has come to, below the gizmo.
-static void drawResult(const Picture& picture, const GizmoDrag& drag, const Manipulation& by) {
-    if (const auto at = toPixel(picture, drag.frame.origin + by.move))
-        drawReadout(*at + glm::vec2(0, kReadoutPixels), dragText(drag, by));
+static void drawResult(const Picture& picture, const GizmoDrag& drag,
+                       const Manipulation& manipulation) {
+    if (const auto pixel = toPixel(picture, drag.frame.origin + manipulation.move))
+        drawReadout(*pixel + glm::vec2(0, kReadoutPixels), dragText(drag, manipulation));
 }
 
 /// Returns what the drag does, if anything.
@@ -156,21 +159,21 @@ static std::optional<Manipulation> dragSelection(EditorState& state, const Pictu
     const glm::vec2 mouse = mousePosition();
     if (drag.duplicates && glm::length(mouse - drag.start) > kDragPixels)
         makeCopies(state, drag);
-    const auto by =
+    const auto manipulation =
         dragManipulation(picture, drag, state.view.gizmo, mouse, heldKeys(state.view.gizmo));
-    if (!by || drag.duplicates)
+    if (!manipulation || drag.duplicates)
         return {};
     ObjectsById seen, after;
     for (const auto& [id, start] : drag.objects)
         if (const Object* object = findObject(state, id)) {
             seen.emplace(id, *object);
-            after.emplace(id, manipulated(state.document, start, *by));
+            after.emplace(id, manipulated(state.document, start, *manipulation));
         }
     for (auto& [id, object] : after)
         state.document.objects.at(id) = std::move(object);
     trackEdits(state, seen, labelOf(drag));
-    moveSurface(state, drag, *by);
-    return by;
+    moveSurface(state, drag, *manipulation);
+    return manipulation;
 }
 
 static void dragLight(EditorState& state, const Picture& picture) {
@@ -256,9 +259,9 @@ bool useGizmo(EditorState& state, bool mouseHere) {
     const Picture picture = state.view.picture();
     const bool clicked = state.view.drag && endDrag(state);
     auto& drag = state.view.drag;
-    std::optional<Manipulation> by;
+    std::optional<Manipulation> manipulation;
     if (drag && drag->part == LightPart::None)
-        by = dragSelection(state, picture);
+        manipulation = dragSelection(state, picture);
     else if (drag)
         dragLight(state, picture);
     const LightPart part = lightHandles(state, picture, mouseHere && !clicked);
@@ -283,8 +286,8 @@ bool useGizmo(EditorState& state, bool mouseHere) {
     // already has other ones.
     const bool turning = drag && drag->part == LightPart::None;
     drawGizmo(picture, tool, {frame->origin, turning ? drag->frame.axes : frame->axes}, lit);
-    if (drag && by)
-        drawResult(picture, *drag, *by);
+    if (drag && manipulation)
+        drawResult(picture, *drag, *manipulation);
     return clicked;
 }
 

@@ -87,21 +87,22 @@ static float roundStep(const Picture& picture, glm::vec3 origin) {
 static std::optional<Manipulation> dragMove(const Picture& picture, const GizmoDrag& drag,
                                             const GizmoSettings& settings, glm::vec2 mouse,
                                             DragKeys keys) {
-    Manipulation by{.pivot = drag.frame.origin, .axes = drag.frame.axes};
+    Manipulation manipulation{.pivot = drag.frame.origin, .axes = drag.frame.axes};
     if (const auto number = typedNumber(drag)) {
-        by.move = drag.frame.axes[typedAxis(drag.handle)] * *number;
-        return by;
+        manipulation.move = drag.frame.axes[typedAxis(drag.handle)] * *number;
+        return manipulation;
     }
     const auto d = dragDisplacement(picture, drag.handle, drag.frame, drag.start, mouse);
     if (!d)
         return {};
-    by.move = *d * (keys.fine ? kFine : 1);
+    manipulation.move = *d * (keys.fine ? kFine : 1);
     if (keys.snap) {
         const float step =
             settings.moveStep > 0 ? settings.moveStep : roundStep(picture, drag.frame.origin);
-        by.move = drag.frame.axes * snapped(glm::transpose(drag.frame.axes) * by.move, step);
+        manipulation.move =
+            drag.frame.axes * snapped(glm::transpose(drag.frame.axes) * manipulation.move, step);
     }
-    return by;
+    return manipulation;
 }
 
 static glm::vec3 turnAxis(const Picture& picture, const GizmoDrag& drag) {
@@ -112,7 +113,7 @@ static glm::vec3 turnAxis(const Picture& picture, const GizmoDrag& drag) {
 static std::optional<Manipulation> dragRotate(const Picture& picture, GizmoDrag& drag,
                                               const GizmoSettings& settings, glm::vec2 mouse,
                                               DragKeys keys) {
-    Manipulation by{.pivot = drag.frame.origin, .axes = drag.frame.axes};
+    Manipulation manipulation{.pivot = drag.frame.origin, .axes = drag.frame.axes};
     if (const auto number = typedNumber(drag)) {
         drag.turned = glm::radians(*number);
     } else {
@@ -127,8 +128,8 @@ static std::optional<Manipulation> dragRotate(const Picture& picture, GizmoDrag&
             drag.turned = std::round(drag.turned / step) * step;
     }
     if (drag.turned != 0)
-        by.turn = glm::angleAxis(drag.turned, glm::normalize(turnAxis(picture, drag)));
-    return by;
+        manipulation.turn = glm::angleAxis(drag.turned, glm::normalize(turnAxis(picture, drag)));
+    return manipulation;
 }
 
 static float usableFactor(float factor) {
@@ -154,38 +155,39 @@ static std::optional<Manipulation> dragScale(const Picture& picture, const Gizmo
                      settings.scaleStep;
         factor = usableFactor(factor);
     }
-    Manipulation by{.pivot = drag.frame.origin, .axes = drag.frame.axes};
-    by.alongOwnAxes = settings.space == GizmoSpace::Local;
+    Manipulation manipulation{.pivot = drag.frame.origin, .axes = drag.frame.axes};
+    manipulation.alongOwnAxes = settings.space == GizmoSpace::Local;
     for (int i = 0; i < 3; ++i)
         if (takesAxis(drag.handle, i))
-            by.scale[i] = factor;
-    return by;
+            manipulation.scale[i] = factor;
+    return manipulation;
 }
 
-static bool finite(const Manipulation& by) {
-    const auto sum = glm::dot(by.move, glm::vec3(1)) + glm::dot(by.scale, glm::vec3(1)) +
-                     by.turn.w + by.turn.x + by.turn.y + by.turn.z;
+static bool finite(const Manipulation& manipulation) {
+    const auto sum = glm::dot(manipulation.move, glm::vec3(1)) +
+                     glm::dot(manipulation.scale, glm::vec3(1)) + manipulation.turn.w +
+                     manipulation.turn.x + manipulation.turn.y + manipulation.turn.z;
     return std::isfinite(sum);
 }
 
 std::optional<Manipulation> dragManipulation(const Picture& picture, GizmoDrag& drag,
                                              const GizmoSettings& settings, glm::vec2 mouse,
                                              DragKeys keys) {
-    std::optional<Manipulation> by;
+    std::optional<Manipulation> manipulation;
     switch (drag.tool) {
     case Tool::Select:
         break;
     case Tool::Move:
-        by = dragMove(picture, drag, settings, mouse, keys);
+        manipulation = dragMove(picture, drag, settings, mouse, keys);
         break;
     case Tool::Rotate:
-        by = dragRotate(picture, drag, settings, mouse, keys);
+        manipulation = dragRotate(picture, drag, settings, mouse, keys);
         break;
     case Tool::Scale:
-        by = dragScale(picture, drag, settings, mouse, keys);
+        manipulation = dragScale(picture, drag, settings, mouse, keys);
         break;
     }
-    return by && finite(*by) ? by : std::nullopt;
+    return manipulation && finite(*manipulation) ? manipulation : std::nullopt;
 }
 
 static std::string axisNames(Handle handle) {
@@ -196,9 +198,9 @@ static std::string axisNames(Handle handle) {
     return names.empty() ? names : names + " ";
 }
 
-std::string dragText(const GizmoDrag& drag, const Manipulation& by) {
+std::string dragText(const GizmoDrag& drag, const Manipulation& manipulation) {
     const std::string axes = axisNames(drag.handle);
-    const glm::vec3 moved = glm::transpose(drag.frame.axes) * by.move;
+    const glm::vec3 moved = glm::transpose(drag.frame.axes) * manipulation.move;
     const int axis = typedAxis(drag.handle);
     switch (drag.tool) {
     case Tool::Move:
@@ -214,7 +216,7 @@ std::string dragText(const GizmoDrag& drag, const Manipulation& by) {
     case Tool::Scale:
         if (!drag.typed.empty())
             return fmt::format("Scale {}\u00d7 {}_", axes, drag.typed);
-        return fmt::format("Scale {}\u00d7 {:.3f}", axes, by.scale[axis]);
+        return fmt::format("Scale {}\u00d7 {:.3f}", axes, manipulation.scale[axis]);
     case Tool::Select:
         break;
     }

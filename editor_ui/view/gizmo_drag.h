@@ -71,6 +71,6 @@ std::optional<Manipulation> dragManipulation(const Picture& picture, GizmoDrag& 
                                              DragKeys keys);
 
 /// What the drag has come to, with its unit: "Move X +1.250 m".
-std::string dragText(const GizmoDrag& drag, const Manipulation& by);
+std::string dragText(const GizmoDrag& drag, const Manipulation& manipulation);
 
 } // namespace limn

@@ -46,11 +46,11 @@ ImU32 handleColor(Handle handle, Handle lit) {
 } // namespace
 
 /// X, Y or Z on a dark disc.
-static void drawLetter(ImDrawList& list, Handle axis, glm::vec2 at, ImU32 color) {
+static void drawLetter(ImDrawList& list, Handle axis, glm::vec2 centre, ImU32 color) {
     const char* name = axis == Handle::X ? "X" : axis == Handle::Y ? "Y" : "Z";
     const ImVec2 size = ImGui::CalcTextSize(name);
-    list.AddCircleFilled(toIm(at), size.y * 0.55f, color::kGround);
-    list.AddText({at.x - size.x / 2, at.y - size.y / 2}, color, name);
+    list.AddCircleFilled(toIm(centre), size.y * 0.55f, color::kGround);
+    list.AddText({centre.x - size.x / 2, centre.y - size.y / 2}, color, name);
 }
 
 /// An axis that ends in an arrow, or in a square for scale.
@@ -96,13 +96,13 @@ static void drawRing(ImDrawList& list, const Picture& picture, Handle handle,
     const glm::vec3 normal = frame.axes * handleAxis(handle);
     const glm::vec3 eye = towardsEye(picture, frame.origin);
     for (int i = 0; i < kRingSteps; ++i) {
-        const auto at = [&](int step) {
+        const auto pointAt = [&](int step) {
             return ringPoint(frame.origin, normal, radius,
                              glm::two_pi<float>() * float(step) / kRingSteps);
         };
-        if (glm::dot(at(i) + at(i + 1) - 2.f * frame.origin, eye) < -0.04f * radius)
+        if (glm::dot(pointAt(i) + pointAt(i + 1) - 2.f * frame.origin, eye) < -0.04f * radius)
             continue;
-        const auto a = toPixel(picture, at(i)), b = toPixel(picture, at(i + 1));
+        const auto a = toPixel(picture, pointAt(i)), b = toPixel(picture, pointAt(i + 1));
         if (a && b)
             list.AddLine(toIm(*a), toIm(*b), color, 3);
     }
@@ -110,8 +110,8 @@ static void drawRing(ImDrawList& list, const Picture& picture, Handle handle,
     const glm::vec3 middle = glm::length(inPlane) > 0.1f ? glm::normalize(inPlane)
                                                          : frame.axes[handle == Handle::X ? 1 : 0];
     const glm::vec3 side = glm::normalize(middle + glm::cross(normal, middle));
-    if (const auto at = toPixel(picture, frame.origin + side * radius))
-        drawLetter(list, handle, *at, color);
+    if (const auto pixel = toPixel(picture, frame.origin + side * radius))
+        drawLetter(list, handle, *pixel, color);
 }
 
 /// Rings of Rotate and Scale, a disc of Move.

@@ -134,13 +134,13 @@ static std::optional<float> toRing(const Picture& picture, Handle handle, const 
     const glm::vec3 normal = worldAxis(handle, frame), eye = towardsEye(picture, frame.origin);
     std::optional<float> best;
     for (int i = 0; i < kRingSteps; ++i) {
-        const auto at = [&](int step) {
+        const auto pointAt = [&](int step) {
             return ringPoint(frame.origin, normal, radius,
                              glm::two_pi<float>() * float(step) / kRingSteps);
         };
-        if (glm::dot(at(i) - frame.origin, eye) < -kParallel * radius)
+        if (glm::dot(pointAt(i) - frame.origin, eye) < -kParallel * radius)
             continue;
-        const auto a = toPixel(picture, at(i)), b = toPixel(picture, at(i + 1));
+        const auto a = toPixel(picture, pointAt(i)), b = toPixel(picture, pointAt(i + 1));
         if (a && b)
             best = std::min(best.value_or(1e9f), distanceToSegment(mouse, *a, *b));
     }

@@ -134,9 +134,9 @@ static std::optional<float> angleAt(const Picture& picture, const Light& light, 
                                  : dragDisplacement(picture, Handle::XY, frame, start, now);
     if (!moved)
         return {};
-    const glm::vec3 at = grip + *moved - light.position;
-    const float depth = glm::dot(at, light.direction);
-    return std::atan2(std::max(glm::dot(at, across), 0.f),
+    const glm::vec3 offset = grip + *moved - light.position;
+    const float depth = glm::dot(offset, light.direction);
+    return std::atan2(std::max(glm::dot(offset, across), 0.f),
                       fromFront ? std::max(depth, 0.1f * reach) : depth);
 }
 
@@ -236,12 +236,12 @@ static void drawCone(const Picture& picture, const Light& light, LightPart part,
                      float width) {
     const float reach = reachOf(picture, light, part), angle = angleOf(light, part);
     const glm::vec3 middle = light.position + light.direction * (reach * std::cos(angle));
-    const auto at = [&](int step) {
+    const auto pointAt = [&](int step) {
         return ringPoint(middle, light.direction, reach * std::sin(angle),
                          glm::two_pi<float>() * float(step) / kCircleSteps);
     };
     for (int i = 0; i < kCircleSteps; ++i)
-        drawLine(picture, at(i), at(i + 1), color, width);
+        drawLine(picture, pointAt(i), pointAt(i + 1), color, width);
     const glm::vec3 across = acrossLight(picture, light);
     for (float side : {-1.f, 1.f})
         drawLine(picture, light.position, conePoint(light, side * across, angle, reach), color,
@@ -259,9 +259,9 @@ void drawLightHandles(const Picture& picture, const Light& light, LightPart lit)
         if (grip.part == LightPart::Direction || grip.part == LightPart::Range)
             drawLine(picture, light.position, grip.position, kFaint, 1);
         const ImU32 ink = grip.part == lit ? color::kHandleLit : IM_COL32(235, 235, 235, 255);
-        const ImVec2 at(pixel.x, pixel.y);
-        list.AddCircleFilled(at, 6.5f, color::kGround);
-        list.AddCircleFilled(at, 4.5f, ink);
+        const ImVec2 centre(pixel.x, pixel.y);
+        list.AddCircleFilled(centre, 6.5f, color::kGround);
+        list.AddCircleFilled(centre, 4.5f, ink);
     }
 }
 

@@ -40,11 +40,11 @@ static float sceneRadius(const EditorState& state) {
 /// Distance from `from` to the nearest surface along the unit vector `direction`, at most the
 /// scene's diameter [m].
 static float freeDistance(const EditorState& state, glm::vec3 from, glm::vec3 direction) {
-    const float most = 2 * sceneRadius(state);
+    const float maxDistance = 2 * sceneRadius(state);
     if (!state.trace)
-        return most;
+        return maxDistance;
     const Hit hit = state.trace->closestHit({from, direction});
-    return hit ? std::min(hit.t, most) : most;
+    return hit ? std::min(hit.t, maxDistance) : maxDistance;
 }
 
 /// Distance from `from` along the unit vector `direction` to the side of the scene's box; at least

@@ -43,11 +43,11 @@ void pick(EditorState& state, glm::vec2 mouse, bool extend) {
     const ObjectId icon = state.view.showLights ? iconAt(state, state.view.picture(), mouse) : 0;
     state.view.picked = icon ? std::nullopt : surfaceAt(state, mouse);
     const ObjectId id = state.view.picked ? state.view.picked->node : icon;
-    const auto at = std::ranges::find(state.selection, id);
+    const auto found = std::ranges::find(state.selection, id);
     if (!extend)
         state.selection = id ? std::vector{id} : std::vector<ObjectId>{};
-    else if (at != state.selection.end())
-        state.selection.erase(at);
+    else if (found != state.selection.end())
+        state.selection.erase(found);
     else if (id)
         state.selection.push_back(id);
 }

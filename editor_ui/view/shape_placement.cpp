@@ -22,15 +22,15 @@ static glm::quat uprightTo(glm::vec3 normal) {
 
 Transform shapeAtPixel(const EditorState& state, glm::vec2 pixel) {
     Transform place;
-    glm::vec3 at;
+    glm::vec3 position;
     if (const Hit hit = hitUnder(state, pixel)) {
-        at = hit.position;
+        position = hit.position;
         place.rotation = uprightTo(hit.frontFace ? hit.geometricNormal : -hit.geometricNormal);
     } else {
-        at = pivotUnder(state, pixel);
+        position = pivotUnder(state, pixel);
     }
-    place.translation = at;
-    const float size = roundedToTwoDigits(glm::distance(at, state.view.camera.eye) / 6);
+    place.translation = position;
+    const float size = roundedToTwoDigits(glm::distance(position, state.view.camera.eye) / 6);
     place.scale = glm::vec3(std::max(size, 1e-3f));
     return place;
 }

@@ -76,7 +76,7 @@ TEST_F(RecoveryTest, AnEditIsCopiedWithoutAFrameAndOfferedToTheNextEditor) {
 
     const auto session = opened(project);
     ASSERT_TRUE(session->state.recovery);
-    EXPECT_EQ(session->state.recovery->of, project);
+    EXPECT_EQ(session->state.recovery->originalPath, project);
     EXPECT_NEAR(double(session->state.recovery->written), double(std::time(nullptr)), 60);
     EXPECT_NE(session->state.document, edited);
     ask(*session, Request::Kind::Recover);
@@ -192,7 +192,7 @@ TEST_F(RecoveryTest, OnlyTheStartOffersTheCopyOfAnotherDocument) {
     }
     const auto session = opened("signs");
     ASSERT_TRUE(session->state.recovery);
-    EXPECT_EQ(session->state.recovery->of, project);
+    EXPECT_EQ(session->state.recovery->originalPath, project);
     ask(*session, Request::Kind::PostponeRecovery);
     open(*session, "cornell");
     EXPECT_FALSE(session->state.recovery);
