@@ -81,11 +81,15 @@ endfunction()
 
 # Tests start programs with a cache folder of their own, in which Lavapipe would compile the same shaders again, for five seconds and
 # more. They share one cache, with the other presets and checkouts too, as these share the compiler's.
-set(LIMN_SHADER_CACHE ${CMAKE_BINARY_DIR}/shader-cache)
-if(DEFINED ENV{XDG_CACHE_HOME})
-  set(LIMN_SHADER_CACHE $ENV{XDG_CACHE_HOME}/limn-tests/shaders)
-elseif(DEFINED ENV{HOME})
-  set(LIMN_SHADER_CACHE $ENV{HOME}/.cache/limn-tests/shaders)
+set(LIMN_SHADER_CACHE $ENV{XDG_CACHE_HOME})
+if(NOT LIMN_SHADER_CACHE)
+  set(LIMN_SHADER_CACHE $ENV{HOME}/.cache)
+endif()
+string(APPEND LIMN_SHADER_CACHE /limn-test-shaders)
+# Mesa makes the folder anew, but none above it.
+execute_process(COMMAND ${CMAKE_COMMAND} -E make_directory ${LIMN_SHADER_CACHE} RESULT_VARIABLE failed ERROR_QUIET)
+if(failed)
+  set(LIMN_SHADER_CACHE ${CMAKE_BINARY_DIR})
 endif()
 set(LIMN_TEST_ENVIRONMENT LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/lsan.supp:print_suppressions=0
     TSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/tsan.supp MESA_SHADER_CACHE_DIR=${LIMN_SHADER_CACHE})

@@ -238,9 +238,12 @@ TEST_F(EditorInASmallWindowTest, AFocusedTextFieldDrawsNothing) {
     const std::uint64_t before = readStats()["frames"];
     screen->focusWindow();
     screen->key("ctrl+p"); // its field has the focus
-    std::this_thread::sleep_for(std::chrono::seconds(1));
-    const std::uint64_t opened = readStats()["frames"];
-    EXPECT_GT(opened, before);
+    ASSERT_TRUE(waitFor([&](const auto& s) { return s["frames"] > before; }));
+    std::uint64_t opened = 0; // frames, when they rest for the first time
+    for (int i = 0; i < 20 && opened != readStats()["frames"]; ++i) {
+        opened = readStats()["frames"];
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+    }
     std::this_thread::sleep_for(std::chrono::seconds(4)); // a cursor that blinks is drawn six times
     EXPECT_EQ(readStats()["frames"], opened);
     screen->key("Escape");
