@@ -32,7 +32,7 @@ std::vector<float> iconScales(const std::vector<glm::vec2>& places, float size) 
                     if (const float d = glm::length(places[other] - place); d > 0.5f)
                         nearest = std::min(nearest, d);
             }
-        scales.push_back(std::max(nearest / size, kLeastIconScale));
+        scales.push_back(std::max(nearest / size, kMinIconScale));
     }
     return scales;
 }

@@ -26,7 +26,7 @@ static float alphaOf(std::uint32_t mip) {
 }
 
 /// The largest value that RGBD can hold.
-static constexpr float kMostRgbd = 255;
+static constexpr float kMaxRgbd = 255;
 
 /// A face of the cube, encoded as Babylon.js' RGBD: linear colour = (rgb / 255)^2.2 / alpha. The
 /// extension wants faces upside down.
@@ -67,7 +67,7 @@ static Result<ProbeLight> probeLight(const ExportScene& scene, const Progress& p
     float maximum = 0;
     for (const glm::vec3& v : light.mips.front().rgb)
         maximum = std::max({maximum, v.x, v.y, v.z});
-    light.intensity = std::max(maximum / kMostRgbd, 1.f);
+    light.intensity = std::max(maximum / kMaxRgbd, 1.f);
     return light;
 }
 

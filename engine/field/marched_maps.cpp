@@ -42,8 +42,8 @@ MarchedMaps emptyMarchedMaps(glm::uvec3 gridSize, const Bounds& gridBounds, std:
 
 glm::vec4 marchedPlane(glm::vec3 direction, float distance, glm::vec3 normal, float kind) {
     // A plane through the probe, seen edge on, hides nothing but that edge.
-    constexpr float kLeastCosine = 1e-5f;
-    const float height = distance * std::max(-glm::dot(normal, direction), kLeastCosine);
+    constexpr float kMinCosine = 1e-5f;
+    const float height = distance * std::max(-glm::dot(normal, direction), kMinCosine);
     return {-normal / height, kind};
 }
 

@@ -63,7 +63,7 @@ static std::optional<std::uint32_t> findQueueFamily(VkInstance instance, VkPhysi
     return std::nullopt;
 }
 
-std::uint32_t mostStorageBuffers(const VkPhysicalDeviceLimits& limits) {
+std::uint32_t maxStorageBuffers(const VkPhysicalDeviceLimits& limits) {
     return std::min(limits.maxPerStageDescriptorStorageBuffers,
                     limits.maxDescriptorSetStorageBuffers);
 }
@@ -74,7 +74,7 @@ static std::string whatIsMissing(VkPhysicalDevice device) {
     vkGetPhysicalDeviceProperties(device, &properties);
     if (properties.apiVersion < VK_API_VERSION_1_3)
         return "Vulkan 1.3";
-    if (mostStorageBuffers(properties.limits) < kStorageBuffers)
+    if (maxStorageBuffers(properties.limits) < kStorageBuffers)
         return fmt::format("{} storage buffers at once", kStorageBuffers);
     VkPhysicalDeviceVulkan13Features v13{};
     v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;

@@ -15,7 +15,7 @@ struct SelectedDevice {
 /// The best device of `instance` whose name contains `desc.name`. On failure the error says which
 /// devices there are and what they lack.
 /// Number of storage buffers that a shader can bind at once.
-std::uint32_t mostStorageBuffers(const VkPhysicalDeviceLimits& limits);
+std::uint32_t maxStorageBuffers(const VkPhysicalDeviceLimits& limits);
 
 Result<SelectedDevice> selectDevice(VkInstance instance, const DeviceDesc& desc);
 

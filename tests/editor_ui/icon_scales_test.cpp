@@ -32,7 +32,7 @@ TEST(IconScales, NoTwoIconsOfACrowdOverlapUnlessTheyAreAlreadySmallest) {
         shrunk += scales[i] < 1;
         for (std::size_t j = 0; j < i; ++j) {
             const float reach = 12 * (scales[i] + scales[j]);
-            const bool smallest = scales[i] == kLeastIconScale || scales[j] == kLeastIconScale;
+            const bool smallest = scales[i] == kMinIconScale || scales[j] == kMinIconScale;
             const float apart = glm::length(places[i] - places[j]) + 1e-3f;
             EXPECT_TRUE(smallest || reach <= apart) << i << ' ' << j;
         }

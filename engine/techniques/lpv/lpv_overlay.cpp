@@ -26,17 +26,17 @@ namespace {
 using Style = OverlayLine::Style;
 
 constexpr std::uint32_t kMaxLobes = 1000; // when no cell is picked
-constexpr float kLeastFlux = 0.05f;       // of the mean; darker lobes would only hide brighter ones
+constexpr float kMinFlux = 0.05f;         // of the mean; darker lobes would only hide brighter ones
 constexpr std::uint32_t kDots = 128, kPickedDots = 768; // of a lobe
 constexpr float kPickedScale = 3;                       // a picked lobe may reach into others
 constexpr float kFaceScale = 0.4f;                      // half a mark's side over a cell's
 constexpr float kTexelScale = 0.15f;                    // a mark's radius over a cell's side
 // Faces beside a wall, across it, block an eighth of what moves along the wall; drawn, they would
 // hide the wall's own.
-constexpr float kLeastBlocked = 0.2f;
-constexpr float kBackToBack = -0.7f;       // cosine of the normals of a wall's two sides, at most
-constexpr std::size_t kMostCompared = 256; // texels of a cell with each other
-constexpr float kRingScale = 0.5f;         // a ring's radius over a cell's side
+constexpr float kMinShownShare = 0.2f;
+constexpr float kBackToBack = -0.7f;      // cosine of the normals of a wall's two sides, at most
+constexpr std::size_t kMaxCompared = 256; // texels of a cell with each other
+constexpr float kRingScale = 0.5f;        // a ring's radius over a cell's side
 
 const glm::vec3 kBothSidesColor(0.9f, 0.45f, 0);
 
@@ -83,7 +83,7 @@ OverlayData lobeOverlay(const Lattice& lattice, std::uint32_t picked, const char
         flux[c] = luminance(fluxOf(lobeOf(c)));
         total += double(flux[c]);
     }
-    const float minFlux = kLeastFlux * mean.value();
+    const float minFlux = kMinFlux * mean.value();
     const auto lit = std::ranges::count_if(flux, [](float f) { return f > 0; });
     std::uint32_t step = 1;
     std::vector<std::uint32_t> cells = brightestCells(lattice, flux, minFlux, step);
@@ -135,7 +135,7 @@ OverlayData blockerOverlay(const LitLattice& lit) {
         for (std::uint32_t i = 0; i < size.x * size.y * size.z; ++i) {
             const glm::ivec3 c(i % size.x, i / size.x % size.y, i / size.x / size.y);
             const float share = blockedShare(lit.blockers, axis, c);
-            if (share < kLeastBlocked)
+            if (share < kMinShownShare)
                 continue;
             ++faces;
             over += share > 1 ? 1 : 0;
@@ -161,7 +161,7 @@ OverlayData blockerOverlay(const LitLattice& lit) {
     out.legend.notes = {
         fmt::format(
             "{} faces block at least {:.0f} %, and {} of them all light; others are not drawn",
-            faces, 100 * kLeastBlocked, over),
+            faces, 100 * kMinShownShare, over),
         fmt::format("Cells of {:.3g} m; a face that lies behind a surface is hidden by it",
                     lattice.cell)};
     return out;
@@ -184,7 +184,7 @@ std::vector<std::uint32_t> cellsOfBothSides(const LitLattice& lit) {
                 .push_back(&texel.surface);
     std::vector<std::uint32_t> found;
     for (const auto& [cell, in] : texels) {
-        const std::size_t step = (in.size() + kMostCompared - 1) / kMostCompared;
+        const std::size_t step = (in.size() + kMaxCompared - 1) / kMaxCompared;
         bool both = false;
         for (std::size_t a = 0; a < in.size() && !both; a += step)
             for (std::size_t b = 0; b < a && !both; b += step)

@@ -22,7 +22,7 @@ constexpr std::array<glm::ivec3, 6> kSides = {glm::ivec3(1, 0, 0),  glm::ivec3(0
                                               glm::ivec3(0, -1, 0), glm::ivec3(0, 0, -1)};
 
 constexpr std::uint32_t kSolid = ~0U; ///< a cell that no air has reached
-constexpr float kMostBacks = 0.25f;   ///< share of the view from open air
+constexpr float kMaxBacks = 0.25f;    ///< share of the view from open air
 
 bool isInside(const Lattice& lattice, glm::ivec3 c) {
     return c.x >= 0 && c.y >= 0 && c.z >= 0 && c.x < int(lattice.size.x) &&
@@ -139,12 +139,12 @@ OpenAir findOpenAir(const TraceScene& trace, std::span<const glm::vec3> position
         count[airOf[beside[i]]] += 1;
     }
     const auto isOpen = [&](std::uint32_t cell) {
-        return sum[airOf[cell]] <= double(kMostBacks) * count[airOf[cell]];
+        return sum[airOf[cell]] <= double(kMaxBacks) * count[airOf[cell]];
     };
     OpenAir air;
     air.volume = double(std::ranges::count_if(open, isOpen)) * std::pow(double(lattice.cell), 3);
     for (std::size_t i = 0; i < beside.size(); ++i)
-        if (isOpen(beside[i]) && backs[i] <= kMostBacks)
+        if (isOpen(beside[i]) && backs[i] <= kMaxBacks)
             air.besideSurfaces.push_back(lattice.centre(lattice.place(beside[i])));
     return air;
 }
