@@ -16,6 +16,7 @@
 #include <imgui.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace limn {
 
@@ -322,6 +323,9 @@ Result<void> runEditor(const EditorAppOptions& options) {
     auto device = gpu::createDevice(desc);
     if (!device)
         return tl::make_unexpected(device.error());
+    if (!(*device)->lacking.empty())
+        logInfo(fmt::format("{} lacks {}", (*device)->properties.deviceName,
+                            fmt::join((*device)->lacking, ", ")));
     const auto surface = (*window)->createSurface((*device)->instance);
     if (!surface)
         return tl::make_unexpected(surface.error());

@@ -125,6 +125,32 @@ static Result<InstanceSetup> createInstance(const DeviceDesc& desc) {
     return setup;
 }
 
+/// A feature that is used where the device has it.
+struct OptionalFeature {
+    VkBool32 VkPhysicalDeviceFeatures::*member;
+    const char* what;
+};
+static constexpr std::array<OptionalFeature, 5> kOptional = {{
+    {&VkPhysicalDeviceFeatures::samplerAnisotropy, "anisotropic filters"},
+    {&VkPhysicalDeviceFeatures::fillModeNonSolid, "wireframes"},
+    {&VkPhysicalDeviceFeatures::shaderSampledImageArrayDynamicIndexing,
+     "dynamic indices of textures"},
+    {&VkPhysicalDeviceFeatures::shaderStorageImageExtendedFormats, "storage images of 8 bits"},
+    {&VkPhysicalDeviceFeatures::fragmentStoresAndAtomics, "stores by fragment shaders"},
+}};
+
+/// Those of kOptional that the device has; lists the others in Device::lacking.
+static VkPhysicalDeviceFeatures optionalFeatures(Device& d) {
+    VkPhysicalDeviceFeatures available, wanted{};
+    vkGetPhysicalDeviceFeatures(d.physicalDevice, &available);
+    for (const OptionalFeature& feature : kOptional) {
+        wanted.*feature.member = available.*feature.member;
+        if (!(available.*feature.member))
+            d.lacking.emplace_back(feature.what);
+    }
+    return wanted;
+}
+
 static VkResult createLogicalDevice(Device& d, bool presents) {
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
@@ -133,10 +159,11 @@ static VkResult createLogicalDevice(Device& d, bool presents) {
                                         .queueFamilyIndex = d.queueFamily,
                                         .queueCount = 1,
                                         .pQueuePriorities = &priority};
-    VkPhysicalDeviceFeatures available;
-    vkGetPhysicalDeviceFeatures(d.physicalDevice, &available);
-    d.anisotropy = available.samplerAnisotropy;
-    d.wireframe = available.fillModeNonSolid;
+    const VkPhysicalDeviceFeatures optional = optionalFeatures(d);
+    d.anisotropy = optional.samplerAnisotropy;
+    d.wireframe = optional.fillModeNonSolid;
+    d.smallTexels = optional.shaderStorageImageExtendedFormats;
+    d.fragmentStores = optional.fragmentStoresAndAtomics;
     VkPhysicalDeviceVulkan13Features v13{};
     v13.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
     v13.dynamicRendering = VK_TRUE;
@@ -149,10 +176,7 @@ static VkResult createLogicalDevice(Device& d, bool presents) {
     VkPhysicalDeviceFeatures2 features{};
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.pNext = &v12;
-    features.features.samplerAnisotropy = available.samplerAnisotropy;
-    features.features.fillModeNonSolid = available.fillModeNonSolid;
-    features.features.shaderSampledImageArrayDynamicIndexing =
-        available.shaderSampledImageArrayDynamicIndexing;
+    features.features = optional;
     const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features,
@@ -224,7 +248,7 @@ Result<std::unique_ptr<Device>> createDevice(const DeviceDesc& desc) {
 }
 
 Result<void> Device::checkStorageBuffers(std::uint32_t needed) const {
-    const std::uint32_t maxBuffers = mostStorageBuffers(properties.limits);
+    const std::uint32_t maxBuffers = maxStorageBuffers(properties.limits);
     return maxBuffers < needed
                ? fail(fmt::format("{}: {} storage buffers can be bound at once, {} are "
                                   "needed",

@@ -55,6 +55,10 @@ public:
     bool softwareRasteriser = false; ///< the "GPU" is the CPU
     bool anisotropy = false;         ///< samplerAnisotropy is enabled
     bool wireframe = false;          ///< fillModeNonSolid is enabled
+    bool smallTexels = false;        ///< shaderStorageImageExtendedFormats is enabled, for R8
+    bool fragmentStores = false;     ///< fragmentStoresAndAtomics is enabled
+    /// Optional features that the device lacks, in words; the editor logs them.
+    std::vector<std::string> lacking;
     bool validating = false;
     MemoryBlocks memory;
 

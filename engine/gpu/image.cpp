@@ -34,14 +34,26 @@ ImageDesc ImageDesc::texture(std::uint32_t width, std::uint32_t height, VkFormat
             .name = name};
 }
 
+ImageDesc ImageDesc::volume(glm::uvec3 size, VkFormat format, std::uint32_t mips,
+                            const char* name) {
+    return {.width = size.x,
+            .height = size.y,
+            .depth = size.z,
+            .mips = mips,
+            .format = format,
+            .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                     VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+            .name = name};
+}
+
 VkImageAspectFlags aspectOf(VkFormat format) {
     return format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D16_UNORM
                ? VK_IMAGE_ASPECT_DEPTH_BIT
                : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
-std::uint32_t mipCount(std::uint32_t width, std::uint32_t height) {
-    return std::uint32_t(std::bit_width(std::max({width, height, 1u})));
+std::uint32_t mipCount(std::uint32_t width, std::uint32_t height, std::uint32_t depth) {
+    return std::uint32_t(std::bit_width(std::max({width, height, depth, 1u})));
 }
 
 static VkImageView createView(Device& device, const Image& image, VkImageViewType type,
@@ -62,14 +74,15 @@ static VkImageView createView(Device& device, const Image& image, VkImageViewTyp
 
 Image::Image(Device& device, const ImageDesc& desc)
     : width(desc.width), height(desc.height), layers(desc.layers), mips(desc.mips),
-      format(desc.format), m_device(&device) {
+      depth(desc.depth), format(desc.format), m_device(&device) {
     assert(width > 0 && height > 0 && layers > 0 && mips > 0);
+    assert(depth == 0 || layers == 1);
     const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
                                  .pNext = nullptr,
                                  .flags = 0,
-                                 .imageType = VK_IMAGE_TYPE_2D,
+                                 .imageType = depth > 0 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D,
                                  .format = format,
-                                 .extent = {width, height, 1},
+                                 .extent = {width, height, std::max(depth, 1u)},
                                  .mipLevels = mips,
                                  .arrayLayers = layers,
                                  .samples = VK_SAMPLE_COUNT_1_BIT,
@@ -91,8 +104,11 @@ Image::Image(Device& device, const ImageDesc& desc)
     VK_CHECK(vkBindImageMemory(device.device, handle, m_memory.memory, m_memory.offset));
     device.setName(VK_OBJECT_TYPE_IMAGE, std::uint64_t(handle), desc.name);
     const bool array = desc.array || layers > 1;
-    view = createView(device, *this, array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D, 0,
-                      layers);
+    view = createView(device, *this,
+                      depth > 0 ? VK_IMAGE_VIEW_TYPE_3D
+                      : array   ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                                : VK_IMAGE_VIEW_TYPE_2D,
+                      0, layers);
     for (std::uint32_t i = 0; desc.layerViews && i < layers; ++i)
         layerViews.push_back(createView(device, *this, VK_IMAGE_VIEW_TYPE_2D, i, 1));
 }
@@ -118,6 +134,7 @@ void Image::swap(Image& other) noexcept {
     std::swap(height, other.height);
     std::swap(layers, other.layers);
     std::swap(mips, other.mips);
+    std::swap(depth, other.depth);
     std::swap(format, other.format);
     std::swap(m_memory, other.m_memory);
     std::swap(m_device, other.m_device);
@@ -125,6 +142,9 @@ void Image::swap(Image& other) noexcept {
 
 static VkDeviceSize texelBytes(VkFormat format) {
     switch (int(format)) {
+    case VK_FORMAT_R8_UNORM:
+    case VK_FORMAT_R8_UINT:
+        return 1;
     case VK_FORMAT_E5B9G9R9_UFLOAT_PACK32:
     case VK_FORMAT_R8G8B8A8_UNORM:
     case VK_FORMAT_R8G8B8A8_SRGB:
@@ -154,17 +174,18 @@ static Buffer stage(Device& device, std::span<const std::byte> bytes) {
 // Returns the bytes read.
 static VkDeviceSize copyMip(VkCommandBuffer cmd, const Buffer& staging, VkDeviceSize offset,
                             const Image& image, std::uint32_t mip) {
-    const std::uint32_t w = std::max(image.width >> mip, 1u), h = std::max(image.height >> mip, 1u);
+    const std::uint32_t w = std::max(image.width >> mip, 1u), h = std::max(image.height >> mip, 1u),
+                        d = std::max(image.depth >> mip, 1u);
     const VkBufferImageCopy region{
         .bufferOffset = offset,
         .bufferRowLength = 0,
         .bufferImageHeight = 0,
         .imageSubresource = {aspectOf(image.format), mip, 0, image.layers},
         .imageOffset = {},
-        .imageExtent = {w, h, 1}};
+        .imageExtent = {w, h, d}};
     vkCmdCopyBufferToImage(cmd, staging.handle, image.handle, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
                            1, &region);
-    return VkDeviceSize(w) * h * image.layers * texelBytes(image.format);
+    return VkDeviceSize(w) * h * d * image.layers * texelBytes(image.format);
 }
 
 void uploadImage(Device& device, VkCommandBuffer cmd, const Image& image,
@@ -181,6 +202,7 @@ void uploadImage(Device& device, VkCommandBuffer cmd, const Image& image,
 
 void uploadImageMakingMips(Device& device, VkCommandBuffer cmd, const Image& image,
                            std::span<const std::byte> bytes) {
+    assert(image.depth == 0 && image.layers == 1);
     const Buffer staging = stage(device, bytes);
     const VkImageAspectFlags aspect = aspectOf(image.format);
     imageBarrier(cmd, image.handle, aspect, kUndefined, kTransferWrite);
@@ -234,7 +256,8 @@ void sampleImage(Device& device, const Image& from, std::uint32_t width, std::ui
 void readImage(Device& device, const Image& image, VkImageLayout layout, std::uint32_t width,
                std::uint32_t height, std::span<std::byte> out, std::uint32_t layers) {
     assert(width <= image.width && height <= image.height && layers <= image.layers);
-    assert(out.size() == VkDeviceSize(width) * height * layers * texelBytes(image.format));
+    const std::uint32_t depth = std::max(image.depth, 1u);
+    assert(out.size() == VkDeviceSize(width) * height * depth * layers * texelBytes(image.format));
     const Buffer staging(device, {.size = out.size(),
                                   .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                   .memory = MemoryKind::Readback,
@@ -248,7 +271,7 @@ void readImage(Device& device, const Image& image, VkImageLayout layout, std::ui
                                        .bufferImageHeight = 0,
                                        .imageSubresource = {aspect, 0, 0, layers},
                                        .imageOffset = {},
-                                       .imageExtent = {width, height, 1}};
+                                       .imageExtent = {width, height, depth}};
         vkCmdCopyImageToBuffer(cmd, image.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                staging.handle, 1, &region);
         imageBarrier(cmd, image.handle, aspect, kTransferRead, outside);

@@ -7,10 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 namespace limn::gpu {
 
 struct ImageDesc {
     std::uint32_t width = 1, height = 1; ///< texels, > 0
+    /// Texels of a 3D image, which has one layer; 0: the image is 2D.
+    std::uint32_t depth = 0;
     std::uint32_t layers = 1;
     std::uint32_t mips = 1;
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
@@ -25,6 +29,8 @@ struct ImageDesc {
     /// An image to sample; filled by uploadImage().
     static ImageDesc texture(std::uint32_t width, std::uint32_t height, VkFormat format,
                              std::uint32_t mips, const char* name);
+    /// A 3D image for compute shaders to write, and to sample, upload and read back.
+    static ImageDesc volume(glm::uvec3 size, VkFormat format, std::uint32_t mips, const char* name);
 };
 
 /// Owns a VkImage, its memory and its views. Move-only; empty after a move; retires like Buffer.
@@ -41,9 +47,10 @@ public:
     explicit operator bool() const { return handle != VK_NULL_HANDLE; }
 
     VkImage handle = VK_NULL_HANDLE;
-    VkImageView view = VK_NULL_HANDLE;   ///< all mips and layers
+    VkImageView view = VK_NULL_HANDLE;   ///< all mips and layers; of a 3D image, a 3D view
     std::vector<VkImageView> layerViews; ///< one per layer when asked for
     std::uint32_t width = 0, height = 0, layers = 0, mips = 0;
+    std::uint32_t depth = 0; ///< 0: 2D
     VkFormat format = VK_FORMAT_UNDEFINED;
 
 private:
@@ -55,17 +62,17 @@ private:
 
 VkImageAspectFlags aspectOf(VkFormat format);
 
-/// Number of mips in a full chain down to 1x1.
-std::uint32_t mipCount(std::uint32_t width, std::uint32_t height);
+/// Number of mips in a full chain down to one texel.
+std::uint32_t mipCount(std::uint32_t width, std::uint32_t height, std::uint32_t depth = 1);
 
-/// Fills every mip and layer of `image` from `bytes`: mip after mip, in each layer after layer,
-/// rows tightly packed. Leaves it in SHADER_READ_ONLY_OPTIMAL for fragment shaders. The image must
-/// not have been used before; previous contents are lost.
+/// Fills every mip and layer of `image` from `bytes`: mip after mip, in each layer after layer or
+/// slice after slice, rows tightly packed. Leaves it in SHADER_READ_ONLY_OPTIMAL for fragment
+/// shaders. The image must not have been used before; previous contents are lost.
 void uploadImage(Device& device, VkCommandBuffer cmd, const Image& image,
                  std::span<const std::byte> bytes);
 
-/// The same for mip 0 of a one-layer image (TRANSFER_SRC too); the GPU fills the other mips by
-/// repeated halving.
+/// The same for mip 0 of a 2D image with one layer (TRANSFER_SRC too); the GPU fills the other mips
+/// by repeated halving.
 void uploadImageMakingMips(Device& device, VkCommandBuffer cmd, const Image& image,
                            std::span<const std::byte> bytes);
 
@@ -75,8 +82,9 @@ void uploadImageMakingMips(Device& device, VkCommandBuffer cmd, const Image& ima
 void sampleImage(Device& device, const Image& from, std::uint32_t width, std::uint32_t height,
                  const Image& to, VkImageLayout layout);
 
-/// Copies the corner (0, 0, width, height) of mip 0 of the first `layers` layers to the CPU, layer
-/// after layer, rows tightly packed. The image is in `layout` before and after. Waits for the GPU.
+/// Copies the corner (0, 0, width, height) of mip 0 of the first `layers` layers, or of all slices
+/// of a 3D image, to the CPU, one after the other, rows tightly packed. The image is in `layout`
+/// before and after. Waits for the GPU.
 void readImage(Device& device, const Image& image, VkImageLayout layout, std::uint32_t width,
                std::uint32_t height, std::span<std::byte> out, std::uint32_t layers = 1);
 

@@ -29,6 +29,17 @@ TEST_F(GpuDevice, SaysWhichQueueItSubmitsTo) {
     EXPECT_NE(std::find(names.begin(), names.end(), device->properties.deviceName), names.end());
 }
 
+TEST_F(GpuDevice, SaysWhichOptionalFeaturesItLacks) {
+    const auto lacks = [&](const char* what) {
+        return std::ranges::count(device->lacking, what) > 0;
+    };
+    EXPECT_EQ(lacks("anisotropic filters"), !device->anisotropy);
+    EXPECT_EQ(lacks("wireframes"), !device->wireframe);
+    EXPECT_EQ(lacks("storage images of 8 bits"), !device->smallTexels);
+    EXPECT_EQ(lacks("stores by fragment shaders"), !device->fragmentStores);
+    EXPECT_LE(device->lacking.size(), 5U);
+}
+
 TEST_F(GpuDevice, IsFoundByPartOfItsNameInAnyCase) {
     std::string name = device->properties.deviceName;
     std::transform(name.begin(), name.end(), name.begin(),
