@@ -87,6 +87,9 @@ Result<std::vector<ExportedFile>> exportLight(const std::string& path, const Exp
                                               const Progress& progress) {
     if (const Result<void> possible = checkExportPath(path, format); !possible)
         return tl::make_unexpected(possible.error());
+    if (!scene.field.parts.empty())
+        return fail(fmt::format("{}: no format holds the light of a {}", path,
+                                scene.field.parts.front()->name()));
     const Result<std::vector<ExportFile>> files =
         format.write(scene, settings, nameOf(path), progress);
     if (progress.cancelled())

@@ -32,7 +32,8 @@ struct ExportedFile {
     std::uint64_t bytes = 0;
 };
 
-/// Exports to `path` and returns the files written, the main file first.
+/// Exports to `path` and returns the files written, the main file first. Formats hold a lightmap
+/// and a grid: fails with the name of any other part of the field.
 Result<std::vector<ExportedFile>> exportLight(const std::string& path, const ExportFormat& format,
                                               const ExportScene& scene,
                                               const ExportSettings& settings,

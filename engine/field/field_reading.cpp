@@ -9,12 +9,17 @@
 
 namespace limn {
 
-/// Adds the sum of `ofCoefficients` times the coefficients of the light above the surface, where
-/// `value` of that is above 0. Changes `ofCoefficients`.
-static void addSum(const FieldPoint& point, std::span<float> ofCoefficients, glm::vec3 value,
-                   glm::vec3 weight, FieldReading& reading) {
+/// The weight of a value that is clamped to 0 where it is negative.
+static glm::vec3 clampedWeight(glm::vec3 value, glm::vec3 weight) {
     for (int k = 0; k < 3; ++k)
         weight[k] = value[k] > 0 ? weight[k] : 0;
+    return weight;
+}
+
+/// Adds the sum of `ofCoefficients` times the coefficients of the light above the surface. Changes
+/// `ofCoefficients`.
+static void addSum(const FieldPoint& point, std::span<float> ofCoefficients, glm::vec3 weight,
+                   FieldReading& reading) {
     const FieldLookup lookup = lookUp(point);
     if (point.field.continues && !lookup.grid)
         weighCut(point.surfaceNormal(), ofCoefficients.data());
@@ -31,19 +36,41 @@ static void addSum(const FieldPoint& point, std::span<float> ofCoefficients, glm
 
 /// The same for the harmonics in `direction`, times factors[l] for each band l.
 static void addBands(const FieldPoint& point, glm::vec3 direction, int bands,
-                     const std::array<float, kMaxBands>& factors, glm::vec3 value, glm::vec3 weight,
+                     const std::array<float, kMaxBands>& factors, glm::vec3 weight,
                      FieldReading& reading) {
     float basis[kMaxCoefficients];
     shBasis(bands, direction, basis);
     for (int l = 0, i = 0; l < bands; ++l)
         for (; i < (l + 1) * (l + 1); ++i)
             basis[i] *= factors[std::size_t(l)];
-    addSum(point, {basis, std::size_t(bands * bands)}, value, weight, reading);
+    addSum(point, {basis, std::size_t(bands * bands)}, weight, reading);
+}
+
+/// Adds what the field's other parts contribute.
+template <class AddTaps>
+static void addParts(const FieldPoint& point, glm::vec3 weight, FieldReading& reading,
+                     const AddTaps& addTaps) {
+    FieldTaps taps;
+    for (std::uint32_t k = 0; k < point.field.parts.size(); ++k) {
+        taps.clear();
+        addTaps(*point.field.parts[k], taps);
+        for (const FieldTap& tap : taps) {
+            const std::uint64_t key = std::uint64_t(k) << 32 | tap.index;
+            const auto [place, added] =
+                reading.partPlaces.try_emplace(key, reading.partNumbers.size());
+            if (added)
+                reading.partNumbers.push_back({k, tap.index});
+            reading.partNumbers[place->second].weight += weight * tap.weight;
+        }
+    }
 }
 
 void addIrradiance(const FieldPoint& point, glm::vec3 weight, FieldReading& reading) {
+    weight = clampedWeight(sampleIrradiance(point), weight);
     addBands(point, point.normal, std::min(int(point.field.bands), kIrradianceBands),
-             irradianceFactors(), sampleIrradiance(point), weight, reading);
+             irradianceFactors(), weight, reading);
+    addParts(point, weight, reading,
+             [&](const FieldPart& part, FieldTaps& taps) { part.irradianceTaps(point, taps); });
 }
 
 void addRadiance(const FieldPoint& point, glm::vec3 direction, glm::vec3 weight,
@@ -51,14 +78,20 @@ void addRadiance(const FieldPoint& point, glm::vec3 direction, glm::vec3 weight,
     const int bands = std::min(int(point.field.bands), kIrradianceBands);
     float ofCoefficients[kIrradianceBands * kIrradianceBands];
     hemisphereRadianceWeights(bands, point.normal, direction, ofCoefficients);
-    addSum(point, {ofCoefficients, std::size_t(bands * bands)}, sampleRadiance(point, direction),
-           weight, reading);
+    weight = clampedWeight(sampleRadiance(point, direction), weight);
+    addSum(point, {ofCoefficients, std::size_t(bands * bands)}, weight, reading);
+    addParts(point, weight, reading, [&](const FieldPart& part, FieldTaps& taps) {
+        part.radianceTaps(point, direction, taps);
+    });
 }
 
 void addLobe(const FieldPoint& point, glm::vec3 direction, int bands,
              const std::array<float, kMaxBands>& factors, glm::vec3 weight, FieldReading& reading) {
-    addBands(point, direction, std::min(bands, int(point.field.bands)), factors,
-             sampleLobe(point, direction, bands, factors), weight, reading);
+    weight = clampedWeight(sampleLobe(point, direction, bands, factors), weight);
+    addBands(point, direction, std::min(bands, int(point.field.bands)), factors, weight, reading);
+    addParts(point, weight, reading, [&](const FieldPart& part, FieldTaps& taps) {
+        part.lobeTaps(point, direction, bands, factors, taps);
+    });
 }
 
 glm::vec3 valueOf(const FieldReading& reading, const IndirectField& field) {
@@ -68,6 +101,10 @@ glm::vec3 valueOf(const FieldReading& reading, const IndirectField& field) {
         const std::size_t stride = values.size() / field.coefficients();
         for (std::size_t i = 0; i < field.coefficients(); ++i)
             value += glm::dvec3(entry.weight[i] * glm::vec3(values[i * stride + entry.index]));
+    }
+    for (const FieldReading::PartNumber& number : reading.partNumbers) {
+        const FieldTap one{number.index, 1};
+        value += glm::dvec3(number.weight * field.parts[number.part]->sum({&one, 1}));
     }
     for (const FieldReading::Marched& m : reading.marched)
         value += glm::dvec3(m.weight * marchedRadiance(*field.marched, m.lookup));

@@ -15,8 +15,8 @@
 namespace limn {
 
 /// A value that is linear in a field's light, such as the bounced light of a pixel: for each colour
-/// the sum, over entries and coefficients, of weight times coefficient, and that of marched
-/// radiance.
+/// the sum, over entries and coefficients, of weight times coefficient, that of marched radiance,
+/// and that of the numbers of the field's other parts.
 struct FieldReading {
     struct Entry {
         bool grid = false;       ///< a cell of the grid, else a texel of the lightmap
@@ -34,7 +34,16 @@ struct FieldReading {
     };
     std::vector<Marched> marched;
 
-    /// The same of Lighting::emittedField().
+    /// Weights of the numbers that the field's other parts store, each number at most once.
+    struct PartNumber {
+        std::uint32_t part = 0;  ///< index into IndirectField::parts
+        std::uint32_t index = 0; ///< as FieldTap::index
+        glm::vec3 weight{0};
+    };
+    std::vector<PartNumber> partNumbers;
+    std::unordered_map<std::uint64_t, std::size_t> partPlaces; ///< of those, by part and index
+
+    /// The same as `entries`, of Lighting::emittedField().
     std::vector<Entry> emitted;
 };
 

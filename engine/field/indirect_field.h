@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/field/field_part.h"
 #include "engine/field/grid_moments.h"
 #include "engine/field/marched_maps.h"
 #include "engine/scene/scene.h"
@@ -15,10 +16,11 @@
 
 namespace limn {
 
-/// Real-time indirect light as the viewport samples it: spherical harmonics of incident radiance.
-/// Coefficient (l, m) has index i = l(l+1)+m; real, orthonormal, no Condon-Shortley sign. E(n) =
-/// max(0, sum A_l c_i Y_i(n)) over the first three bands, A = {pi, 2pi/3, pi/4} [W m^-2]; exitant
-/// radiance is albedo E / pi. Reflections read as many of the available bands as they need.
+/// Real-time indirect light as pictures sample it: the sum of its parts, each of which is linear in
+/// what it stores. Lightmap and grid hold spherical harmonics of incident radiance. Coefficient (l,
+/// m) has index i = l(l+1)+m; real, orthonormal, no Condon-Shortley sign. E(n) = max(0, sum A_l c_i
+/// Y_i(n)) over the first three bands, A = {pi, 2pi/3, pi/4} [W m^-2]; exitant radiance is albedo E
+/// / pi. Reflections read as many of the available bands as they need.
 struct IndirectField {
     std::uint32_t bands = 3; ///< [2, 8]; 3 unless a surface of the scene is glossy
     /// Number of bands in colour; the bands above are grey. 0: all bands.
@@ -45,8 +47,12 @@ struct IndirectField {
     /// Maps of the grid's cells through which the reflections of glossy receivers are marched, on
     /// the CPU and by the viewport; null: these reflect the harmonics, as all other surfaces do.
     std::shared_ptr<const MarchedMaps> marched;
+    /// What a technique adds to the light of lightmap and grid.
+    std::vector<std::shared_ptr<const FieldPart>> parts;
     std::uint64_t version = 0; ///< incremented with every change of the values above
 
+    /// Whether there is nothing to look up.
+    bool empty() const { return lightmapWidth == 0 && gridSize.x == 0 && parts.empty(); }
     std::uint32_t coefficients() const { return bands * bands; }
     std::size_t cells() const { return std::size_t(gridSize.x) * gridSize.y * gridSize.z; }
     std::uint32_t chroma() const {

@@ -84,12 +84,27 @@ Coefficients sampleField(const FieldPoint& point, int bands) {
     return c;
 }
 
+/// Adds what the field's other parts contribute.
+template <class AddTaps>
+void addParts(const FieldPoint& point, glm::vec3& value, const AddTaps& addTaps) {
+    if (point.field.parts.empty())
+        return;
+    FieldTaps taps;
+    for (const auto& part : point.field.parts) {
+        taps.clear();
+        addTaps(*part, taps);
+        value += part->sum(taps);
+    }
+}
+
 } // namespace
 
 bool IndirectField::operator==(const IndirectField& o) const {
     const bool sameDepth =
         gridDepth && o.gridDepth ? *gridDepth == *o.gridDepth : gridDepth == o.gridDepth;
-    return sameDepth && continues == o.continues && gridMoments == o.gridMoments &&
+    const bool sameParts = std::ranges::equal(
+        parts, o.parts, [](const auto& a, const auto& b) { return a->equals(*b); });
+    return sameDepth && sameParts && continues == o.continues && gridMoments == o.gridMoments &&
            marched == o.marched && bands == o.bands && chroma() == o.chroma() &&
            lightmapWidth == o.lightmapWidth && lightmapHeight == o.lightmapHeight &&
            lightmap == o.lightmap && gridSize == o.gridSize && gridBounds == o.gridBounds &&
@@ -101,6 +116,8 @@ FieldLookup lookUp(const FieldPoint& point) {
     if (point.instance >= layout.instances.size() || layout.instances[point.instance].uv.empty())
         return point.field.grid.empty() ? FieldLookup{}
                                         : gridLookup(point.field, point.position, point.normal);
+    if (point.field.lightmap.empty())
+        return {};
     const Bilinear b = bilinearAt(layout, lightmapUv(layout, point.instance,
                                                      point.scene.instances[point.instance].mesh,
                                                      point.triangle, point.u, point.v, point.back));
@@ -113,7 +130,10 @@ FieldLookup lookUp(const FieldPoint& point) {
 glm::vec3 sampleIrradiance(const FieldPoint& point) {
     const int bands = std::min(int(point.field.bands), kIrradianceBands);
     const Coefficients c = sampleField(point, bands);
-    return glm::max(shIrradiance(bands, c.data(), point.normal), glm::vec3(0));
+    glm::vec3 irradiance = shIrradiance(bands, c.data(), point.normal);
+    addParts(point, irradiance,
+             [&](const FieldPart& part, FieldTaps& taps) { part.irradianceTaps(point, taps); });
+    return glm::max(irradiance, glm::vec3(0));
 }
 
 glm::vec3 sampleRadiance(const FieldPoint& point, glm::vec3 direction) {
@@ -124,14 +144,21 @@ glm::vec3 sampleRadiance(const FieldPoint& point, glm::vec3 direction) {
     glm::vec3 radiance(0);
     for (int i = 0; i < bands * bands; ++i)
         radiance += w[i] * c[std::size_t(i)];
+    addParts(point, radiance, [&](const FieldPart& part, FieldTaps& taps) {
+        part.radianceTaps(point, direction, taps);
+    });
     return glm::max(radiance, glm::vec3(0));
 }
 
 glm::vec3 sampleLobe(const FieldPoint& point, glm::vec3 direction, int bands,
                      const std::array<float, kMaxBands>& factors) {
-    bands = std::min(bands, int(point.field.bands));
-    const Coefficients c = sampleField(point, bands);
-    return glm::max(shLobe(bands, c.data(), direction, factors), glm::vec3(0));
+    const int stored = std::min(bands, int(point.field.bands));
+    const Coefficients c = sampleField(point, stored);
+    glm::vec3 radiance = shLobe(stored, c.data(), direction, factors);
+    addParts(point, radiance, [&](const FieldPart& part, FieldTaps& taps) {
+        part.lobeTaps(point, direction, bands, factors, taps);
+    });
+    return glm::max(radiance, glm::vec3(0));
 }
 
 } // namespace limn

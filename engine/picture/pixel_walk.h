@@ -38,7 +38,6 @@ struct PixelWalk {
     NearLight near;
     bool gathers = false; ///< the field's diffuse light is left to FinalGather
 
-    bool hasField() const { return field.lightmapWidth > 0 || field.gridSize.x > 0; }
     FieldPoint lookup(const Hit& hit, const SurfacePoint& p) const {
         return fieldPoint(field, layout, trace.scene(), hit, p);
     }
@@ -51,7 +50,7 @@ PixelWalk pixelWalk(const TraceScene& trace, const IndirectField& field,
 template <PixelSink Sink>
 void walkBounced(const PixelWalk& w, const PixelSample& sample, const Hit& hit,
                  const SurfacePoint& p, Sink& sink) {
-    if (!w.hasField() || w.gathers)
+    if (w.field.empty() || w.gathers)
         return;
     sink.fieldIrradiance(w.lookup(hit, p), glm::vec3(1), GatherPart::Shown);
     sink.scaled(glm::vec3(1), [&] { walkNearLight(w.near, hit, p, sample.near, sink); });
@@ -60,7 +59,7 @@ void walkBounced(const PixelWalk& w, const PixelSample& sample, const Hit& hit,
 /// Walks the specular reflection of the field's light.
 template <PixelSink Sink>
 void walkReflection(const PixelWalk& w, const Hit& hit, const GlossyPoint& g, Sink& sink) {
-    if (!w.hasField())
+    if (w.field.empty())
         return;
     const std::uint32_t material = w.trace.scene().instances[hit.instance].material;
     if (w.field.marched && w.marches[material]) {

@@ -91,6 +91,9 @@ static std::shared_ptr<const GpuField> uploadField(gpu::Device& device, const In
                                         maps, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grid depths"));
     if (field.gridMoments)
         out->gridWeights = field.gridMoments->smooth ? GRID_SMOOTH_MOMENTS : GRID_MOMENTS;
+    for (const auto& part : field.parts)
+        logWarning(
+            fmt::format("the light of a {} is missing in pictures of this device", part->name()));
     uploader.flush(); // before other work is submitted
     if (any)
         out->marched = uploadMarched(device, field);

@@ -9,9 +9,11 @@
 #include "tests/core/temporary_folder.h"
 #include "tests/export/gltf_rules.h"
 #include "tests/export/known_light.h"
+#include "tests/field/second_grid.h"
 
 #include <atomic>
 #include <filesystem>
+#include <memory>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -71,6 +73,20 @@ TEST(EngineFormats, EveryFormatWritesTheSameBytesTwiceUnderNamesOfOneStem) {
             EXPECT_FALSE(once[i].bytes.empty()) << once[i].name;
         }
     }
+}
+
+TEST(EngineFormats, APartThatNoFormatHoldsIsRefusedByName) {
+    const TemporaryFolder folder;
+    KnownLight light(constantLight);
+    light.field.parts = {std::make_shared<SecondGrid>(light.field)};
+    for (const ExportFormat* format : exportFormats()) {
+        const auto files =
+            exportLight(folder.file(nameFor(*format)), *format, light.view(), {}, {});
+        ASSERT_FALSE(files) << format->name;
+        EXPECT_NE(files.error().message.find("second grid"), std::string::npos)
+            << files.error().message;
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path));
 }
 
 TEST(EngineFormats, EveryGltfFileKeepsTheRules) {

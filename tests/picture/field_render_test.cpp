@@ -6,12 +6,14 @@
 #include "engine/reference/reference.h"
 #include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
+#include "tests/field/second_grid.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <cmath>
+#include <memory>
 
 #include <glm/gtc/constants.hpp>
 
@@ -119,6 +121,17 @@ TEST(FieldRender, ViewsAddUp) {
     }
     EXPECT_GT(floor, 300);
     EXPECT_GT(block, 20);
+}
+
+TEST(FieldRender, APartOfTheFieldIsDrawnAsItsGridIs) {
+    const TraceScene trace(floorAndBlock());
+    IndirectField part;
+    part.parts = {std::make_shared<SecondGrid>(uniformGrid())};
+    for (const View view : {View::Lit, View::Irradiance}) {
+        const ImageF ofPart = renderField(trace, part, {}, optionsFor(view));
+        const ImageF ofGrid = renderField(trace, uniformGrid(), {}, optionsFor(view));
+        EXPECT_LT(rmsDifference(ofPart, ofGrid), 1e-6 * meanOf(ofGrid));
+    }
 }
 
 TEST(FieldRender, WithoutAFieldThereIsNoIndirectLight) {
