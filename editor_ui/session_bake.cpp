@@ -152,7 +152,7 @@ void Session::showStatus() {
     state.trace = m_relit.trace;
     m_relightJob.setLighting(!viewportRelights());
     const glm::vec2 size = glm::max(state.view.size, glm::vec2(1));
-    m_relightJob.setView({state.view.camera, size.x / size.y});
+    m_relightJob.setView(viewpointOf(state.view.camera, glm::uvec2(size)));
     const OverlayKind* overlay = state.overlay.options.kind;
     m_relightJob.keepLit(overlay && overlay->showsLight && !viewportRelights());
     if (!viewportRelights())

@@ -40,8 +40,12 @@ Result<double> LeakRoom::leak(const LightPlace& place, const Technique& techniqu
     const auto lighting = place.light(technique, made->prepared, scene, made->layout);
     if (!lighting)
         return tl::make_unexpected(lighting.error());
-    (*lighting)->update(
-        {.scene = scene, .trace = m_trace.get(), .bounces = scene.relight.maxBounces}, {});
+    const Viewpoint view = viewpointOf(m_dark, {kWidth, kHeight});
+    (*lighting)->update({.scene = scene,
+                         .trace = m_trace.get(),
+                         .bounces = scene.relight.maxBounces,
+                         .view = viewForAll(**lighting, view)},
+                        {});
     return meanOf(renderLight(
                *m_trace, **lighting, *made->layout,
                {.view = View::Irradiance, .camera = m_dark, .width = kWidth, .height = kHeight})) /

@@ -85,7 +85,7 @@ LiveLight::LiveLight(std::unique_ptr<Lighting> lighting, const Scene& scene,
 }
 
 void LiveLight::update(const Scene& scene) {
-    const Viewpoint view{m_view.camera, float(m_view.width) / float(m_view.height)};
+    const Viewpoint view = viewpointOf(m_view.camera, {m_view.width, m_view.height});
     m_driver.step({.scene = scene, .trace = &m_trace, .view = &view}, LightingDriver::Rest::All);
 }
 

@@ -45,6 +45,7 @@ public:
     }
 
     const IndirectField* field() const override { return m_light->field(); }
+    bool isOfView() const override { return m_light->isOfView(); }
     IndirectField readField() const override { return m_light->readField(); }
 
 private:

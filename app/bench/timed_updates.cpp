@@ -55,6 +55,7 @@ UpdateTimes timeUpdates(Lighting& lighting, const Scene& scene, const TraceScene
         return lightUp({.scene = changed,
                         .trace = &changedTrace,
                         .bounces = changed.relight.maxBounces,
+                        .view = viewForAll(lighting, view),
                         .marched = true});
     };
     const auto medianOf = [&](const auto& change) {

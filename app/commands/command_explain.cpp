@@ -137,8 +137,9 @@ Exit runExplain(const ExplainCommand& options) {
     const Result<Camera> camera = chooseCamera(scene, options.camera);
     if (!camera)
         return failed(camera.error().message);
+    const Viewpoint view = viewpointOf(*camera, {options.camera.width, options.camera.height});
     const Result<ConvergedLight> lit =
-        lightOnCpu(options.scene, options.bake, std::move(scene), LitFor::Pictures);
+        lightOnCpu(options.scene, options.bake, std::move(scene), LitFor::Pictures, &view);
     if (!lit)
         return failed(fmt::format("{}: {}", options.scene.scene, lit.error().message));
     const Result<Muted> muted = mutedOf(options.mute, *lit->scene);

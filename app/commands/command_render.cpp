@@ -53,7 +53,8 @@ struct Baked {
     std::shared_ptr<const LightmapLayout> layout; ///< of the light
     std::shared_ptr<const TraceScene> trace;
     bool light = false;                 ///< the picture shows bounced light
-    std::optional<Viewpoint> view;      ///< where light must be up to date; none: everywhere
+    Viewpoint view;                     ///< of the picture
+    bool lightAll = true;               ///< light must be up to date out of view, too
     std::unique_ptr<Lighting> lighting; ///< made when the CPU has to light
     std::shared_ptr<const OverlayData> overlay;
 };
@@ -84,12 +85,13 @@ Result<std::shared_ptr<const Precomputed>> obtainBake(const RenderCommand& optio
 CpuLight relight(const Scene& scene, Baked& baked, bool marched) {
     if (!baked.lighting) // an overlay of light has made it already
         baked.lighting = baked.technique->light(baked.prepared);
-    LightingReport report = baked.lighting->update({.scene = scene,
-                                                    .trace = baked.trace.get(),
-                                                    .bounces = scene.relight.maxBounces,
-                                                    .view = baked.view ? &*baked.view : nullptr,
-                                                    .marched = marched},
-                                                   progressOnStderr());
+    LightingReport report = baked.lighting->update(
+        {.scene = scene,
+         .trace = baked.trace.get(),
+         .bounces = scene.relight.maxBounces,
+         .view = baked.lightAll ? viewForAll(*baked.lighting, baked.view) : &baked.view,
+         .marched = marched},
+        progressOnStderr());
     endProgressLine();
     return {*baked.lighting->field(), std::move(report)};
 }
@@ -118,6 +120,7 @@ Result<Baked> prepareBake(const RenderCommand& options, Scene& scene, const Came
     if (scene.instances.empty() || !(light || options.overlay.wanted()))
         return Baked{}; // nothing receives light, or nobody asks
     Baked baked;
+    baked.view = viewpointOf(camera, {options.camera.width, options.camera.height});
     baked.trace = std::make_shared<const TraceScene>(scene);
     baked.technique = findTechnique(scene.technique.technique);
     if (options.overlay.wanted())
@@ -145,8 +148,7 @@ Result<Baked> prepareBake(const RenderCommand& options, Scene& scene, const Came
             return tl::make_unexpected(added.error());
     baked.light = light;
     // What rays meet may be out of view.
-    if (!options.allCaches && options.nearRays == 0 && options.gatherRays == 0)
-        baked.view = {camera, float(options.camera.width) / float(options.camera.height)};
+    baked.lightAll = options.allCaches || options.nearRays > 0 || options.gatherRays > 0;
     return baked;
 }
 
@@ -226,7 +228,7 @@ RenderRequest requestOf(const RenderCommand& options, const Scene& scene, const 
     request.layout = baked.layout;
     request.technique = baked.technique;
     request.prepared = baked.prepared;
-    request.lightAll = !baked.view;
+    request.lightAll = baked.lightAll;
     request.relightOn = RelightOn(indexOf(kRelightOnNames, options.relight));
     request.overlay = baked.overlay;
     return request;

@@ -13,7 +13,7 @@
 namespace limn {
 
 Result<ConvergedLight> lightOnCpu(const SceneOptions& options, const std::string& bakeFile,
-                                  Scene scene, LitFor reader) {
+                                  Scene scene, LitFor reader, const Viewpoint* view) {
     const Technique& technique = *findTechnique(scene.technique.technique);
     const Precomputation* precomputation = technique.precomputation;
     const MemoryBudget& memory = options.import.memory;
@@ -32,7 +32,7 @@ Result<ConvergedLight> lightOnCpu(const SceneOptions& options, const std::string
         return tl::make_unexpected(data.error());
     }
     Result<ConvergedLight> lit =
-        convergeLight(shared, trace, technique, {*data, shared}, reader, progressOnStderr());
+        convergeLight(shared, trace, technique, {*data, shared}, reader, progressOnStderr(), view);
     endProgressLine();
     return lit;
 }

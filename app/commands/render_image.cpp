@@ -104,11 +104,12 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
         result.relight = light.report;
         return {};
     }
-    const Viewpoint view{request.camera, float(request.width) / float(request.height)};
-    result.relight = lighting->update({.scene = scene,
-                                       .bounces = scene.relight.maxBounces,
-                                       .view = request.lightAll ? nullptr : &view},
-                                      {});
+    const Viewpoint view = viewpointOf(request.camera, {request.width, request.height});
+    result.relight =
+        lighting->update({.scene = scene,
+                          .bounces = scene.relight.maxBounces,
+                          .view = request.lightAll ? viewForAll(*lighting, view) : &view},
+                         {});
     result.relightDevice = device->properties.deviceName;
     return {};
 }

@@ -106,9 +106,12 @@ void RenderWorker::bounce(const PictureRequest& request, const std::atomic<bool>
     }
     const auto start = Clock::now();
     const ViewportOptions& o = request.options;
-    const Viewpoint view{o.camera, float(o.width) / float(o.height)};
+    const Viewpoint view = viewpointOf(o.camera, {o.width, o.height});
+    m_driver.viewIs(view);
     const bool lightOverlay = request.overlay.kind && request.overlay.kind->showsLight;
-    const LightingInput input{.scene = *m_litScene, .view = lightOverlay ? nullptr : &view};
+    const LightingInput input{.scene = *m_litScene,
+                              .view =
+                                  lightOverlay ? viewForAll(*m_driver.lighting(), view) : &view};
     using Rest = LightingDriver::Rest;
     const bool newLight = !m_driver.converged();
     while (!m_driver.converged()) {

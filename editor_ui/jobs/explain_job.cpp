@@ -37,7 +37,10 @@ bool ExplainJob::start(ExplainOrder order) {
 }
 
 ExplainJob::Explained ExplainJob::explain(const ExplainOrder& order) {
-    if (!m_litFor || !m_litFor->sameLight(order)) {
+    const PixelQuestion& q = order.question;
+    const Viewpoint view = viewpointOf(q.camera, {q.width, q.height});
+    if (!m_litFor || !m_litFor->sameLight(order) ||
+        (m_lit->lighting->isOfView() && m_litView != view)) {
         m_litFor.reset();
         m_lit.reset();
         const Technique* technique = findTechnique(order.scene->technique.technique);
@@ -46,11 +49,12 @@ ExplainJob::Explained ExplainJob::explain(const ExplainOrder& order) {
         Progress progress;
         progress.cancel = &m_cancel;
         auto lit = convergeLight(order.scene, std::make_shared<const TraceScene>(*order.scene),
-                                 *technique, order.prepared, LitFor::Pictures, progress);
+                                 *technique, order.prepared, LitFor::Pictures, progress, &view);
         if (!lit)
             return tl::make_unexpected(lit.error());
         m_lit = std::move(*lit);
         m_litFor = order;
+        m_litView = view;
     }
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();

@@ -56,6 +56,7 @@ private:
     std::atomic<bool> m_cancel{false}, m_running{false};
     std::optional<ExplainOrder> m_litFor; ///< of the thread: the order that m_lit was made for
     std::optional<ConvergedLight> m_lit;  ///< the same
+    Viewpoint m_litView;                  ///< the same: of that order's picture
     mutable std::mutex m_mutex;           ///< guards m_result
     std::optional<Explained> m_result;
 };

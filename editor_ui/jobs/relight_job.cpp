@@ -34,12 +34,15 @@ struct RelightJob::Worker {
     LightingStatus status;
     std::optional<std::shared_ptr<const LightSnapshot>> lit; ///< none: nobody asks
     bool lighting = true;
-    std::optional<Viewpoint> view; ///< newest; none: all is looked at
-    std::optional<Scene> relit;    ///< what is lit where the bake is older than the scene
+    std::optional<Viewpoint> newestView; ///< as it was set
+    std::optional<Viewpoint> view;       ///< what is looked at; none: all
+    std::optional<Scene> relit;          ///< what is lit where the bake is older than the scene
 
     bool hasWork() const { return lighting && scene && !driver.done(); }
     bool lights() const { return lighting && driver.lighting(); }
+    bool lightsView() const { return lights() && driver.lighting()->isOfView(); }
     void setLighting(bool here);
+    void lookFrom(const std::optional<Viewpoint>& next);
     void takeScene(std::shared_ptr<const Scene> next);
     void takeBake(BakedScene next);
     void makeLighting();
@@ -84,6 +87,12 @@ void RelightJob::Worker::setLighting(bool here) {
     if (here && !lighting)
         status = {};
     lighting = here;
+}
+
+void RelightJob::Worker::lookFrom(const std::optional<Viewpoint>& next) {
+    view = next;
+    if (view)
+        driver.viewIs(*view);
 }
 
 void RelightJob::Worker::relight(const Progress& progress) {
@@ -169,8 +178,13 @@ void RelightJob::setLighting(bool here) {
 }
 
 void RelightJob::setView(const Viewpoint& view) {
-    const std::lock_guard lock(m_mutex);
-    m_view = view; // read by the next bounces
+    {
+        const std::lock_guard lock(m_mutex);
+        if (m_view == view)
+            return;
+        m_view = view; // read by the next bounces
+    }
+    m_changed.notify_one(); // light of a view follows it
 }
 
 void RelightJob::keepLit(bool keep) {
@@ -198,7 +212,8 @@ void RelightJob::run() {
     for (;;) {
         m_changed.wait(lock, [&] {
             return m_stop || m_nextScene || m_nextBake || m_lighting != worker.lighting ||
-                   m_keepLit != worker.lit.has_value() || worker.hasWork();
+                   m_keepLit != worker.lit.has_value() || worker.hasWork() ||
+                   (worker.lightsView() && m_view != worker.newestView);
         });
         if (m_stop)
             return;
@@ -212,7 +227,8 @@ void RelightJob::run() {
             worker.takeScene(std::move(scene));
         if (baked)
             worker.takeBake(std::move(*baked));
-        worker.view = keepLit && worker.lightsBake ? std::nullopt : view;
+        worker.newestView = view;
+        worker.lookFrom(keepLit && worker.lightsBake ? std::nullopt : view);
         std::shared_ptr<const IndirectField> field;
         if (worker.hasWork()) {
             worker.relight(progress);

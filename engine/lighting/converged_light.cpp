@@ -10,7 +10,7 @@ namespace limn {
 Result<ConvergedLight> convergeLight(std::shared_ptr<const Scene> scene,
                                      std::shared_ptr<const TraceScene> trace,
                                      const Technique& technique, Prepared prepared, LitFor reader,
-                                     const Progress& progress) {
+                                     const Progress& progress, const Viewpoint* view) {
     ConvergedLight lit{.scene = std::move(scene),
                        .trace = std::move(trace),
                        .prepared = std::move(prepared),
@@ -24,6 +24,7 @@ Result<ConvergedLight> convergeLight(std::shared_ptr<const Scene> scene,
     lit.report = lit.lighting->update({.scene = *lit.scene,
                                        .trace = lit.trace.get(),
                                        .bounces = lit.scene->relight.maxBounces,
+                                       .view = view ? viewForAll(*lit.lighting, *view) : nullptr,
                                        .unread = true,
                                        .marched = reader == LitFor::Pictures},
                                       progress);

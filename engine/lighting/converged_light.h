@@ -30,10 +30,11 @@ enum class LitFor : std::uint8_t {
 
 /// Lights `scene` until bounces change next to nothing, at most its maxBounces, and the grid too
 /// where nothing in the scene reads it. `prepared` holds what `technique` precomputed for it, and
-/// nothing where it precomputes nothing. Fails when cancelled.
+/// nothing where it precomputes nothing. `view`: where light of a view is to hold; null: it lights
+/// everything. Fails when cancelled.
 Result<ConvergedLight> convergeLight(std::shared_ptr<const Scene> scene,
                                      std::shared_ptr<const TraceScene> trace,
                                      const Technique& technique, Prepared prepared, LitFor reader,
-                                     const Progress& progress);
+                                     const Progress& progress, const Viewpoint* view = nullptr);
 
 } // namespace limn

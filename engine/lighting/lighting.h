@@ -56,6 +56,11 @@ public:
         return nullptr;
     }
 
+    /// Whether light holds only where the view of the last update shows it, such as light kept for
+    /// pixels. Another view is then a change of the light, and nothing is lit beyond it. An update
+    /// without a view lights everything.
+    virtual bool isOfView() const { return false; }
+
     /// A copy of the light for the technique's overlays of light; null if it has none.
     virtual std::shared_ptr<const LightSnapshot> snapshot() const { return nullptr; }
 
@@ -66,5 +71,11 @@ public:
         return {};
     }
 };
+
+/// LightingInput::view for light that is to be up to date everywhere, which light of a view is for
+/// that view alone.
+inline const Viewpoint* viewForAll(const Lighting& lighting, const Viewpoint& view) {
+    return lighting.isOfView() ? &view : nullptr;
+}
 
 } // namespace limn

@@ -17,18 +17,28 @@ void LightingDriver::lightChanged() {
     m_bounces = 0;
 }
 
+void LightingDriver::viewIs(const Viewpoint& view) {
+    if (!m_lighting || !m_lighting->isOfView() || m_view == view)
+        return;
+    m_view = view;
+    lightChanged();
+}
+
 std::optional<LightingReport> LightingDriver::step(LightingInput input, Rest rest,
                                                    const Progress& progress) {
+    if (input.view)
+        viewIs(*input.view);
     if (done() || (m_converged && rest == Rest::Later))
         return {};
     const bool resting = m_converged;
     const std::uint32_t maxBounces = input.scene.relight.maxBounces;
     input.bounces = resting ? 0 : bouncesPerUpdate(maxBounces);
-    if (!m_everWhole || (resting && rest == Rest::All))
+    const bool ofView = input.view && m_lighting->isOfView();
+    if (!ofView && (!m_everWhole || (resting && rest == Rest::All)))
         input.view = nullptr;
     LightingReport report = m_lighting->update(input, progress);
-    m_whole = report.whole;
-    m_everWhole |= m_whole;
+    m_whole = report.whole || ofView;
+    m_everWhole |= report.whole;
     if (resting)
         return {};
     m_bounces += report.bounces;

@@ -20,7 +20,11 @@ public:
     /// Lights, materials, sky or objects have changed: bounces are counted from 0 again.
     void lightChanged();
 
-    /// Whether nothing is left to do until lightChanged().
+    /// Tells which view the next step is to light, before done() is asked. Where the light is of a
+    /// view (Lighting::isOfView()), another one counts as a change.
+    void viewIs(const Viewpoint& view);
+
+    /// Whether nothing is left to do until lightChanged(), or until the view changes.
     bool done() const { return !m_lighting || (m_converged && m_whole); }
     bool converged() const { return m_converged; }
     std::uint32_t bounces() const { return m_bounces; } ///< since lightChanged()
@@ -34,8 +38,9 @@ public:
 
     /// Performs one update: a few bounces, or, once they have converged, the rest as `rest` says.
     /// Overwrites input.bounces. Ignores the view until there is light everywhere, so that there is
-    /// some wherever the user looks next. Returns std::nullopt if there was nothing to do, and
-    /// after updating the rest, whose report contains no bounces.
+    /// some wherever the user looks next. Light of a view has no rest, and its view always counts.
+    /// Returns std::nullopt if there was nothing to do, and after updating the rest, whose report
+    /// contains no bounces.
     std::optional<LightingReport> step(LightingInput input, Rest rest,
                                        const Progress& progress = {});
 
@@ -44,6 +49,7 @@ public:
 private:
     std::unique_ptr<Lighting> m_lighting;
     std::uint32_t m_bounces = 0;
+    std::optional<Viewpoint> m_view; ///< where the light is of a view
     bool m_converged = false, m_whole = false, m_everWhole = false;
 };
 

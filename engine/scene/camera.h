@@ -4,6 +4,7 @@
 #include <string>
 
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace limn {
@@ -22,9 +23,15 @@ struct Camera {
 /// The position and projection from which a picture is seen.
 struct Viewpoint {
     Camera camera;
-    float aspect = 1; ///< width over height
+    float aspect = 1;   ///< width over height
+    glm::uvec2 size{0}; ///< of the picture [pixels]; 0: there is none
     bool operator==(const Viewpoint&) const = default;
 };
+
+/// The view of a picture of `size` pixels, both > 0.
+inline Viewpoint viewpointOf(const Camera& camera, glm::uvec2 size) {
+    return {camera, float(size.x) / float(size.y), size};
+}
 
 /// World to view transform; the view looks down -Z. Robust if `up` is parallel to the view
 /// direction.

@@ -19,6 +19,7 @@ struct FakeLighting : Lighting {
     std::vector<Call>& calls;
     std::uint32_t needed;
     std::uint32_t done = 0;
+    bool ofView = false;
 
     FakeLighting(std::vector<Call>& to, std::uint32_t bounces) : calls(to), needed(bounces) {}
     LightingReport update(const LightingInput& input, const Progress&) override {
@@ -31,6 +32,7 @@ struct FakeLighting : Lighting {
         return report;
     }
     const IndirectField* field() const override { return nullptr; }
+    bool isOfView() const override { return ofView; }
 };
 
 struct LightingDriverTest : testing::Test {
@@ -92,6 +94,36 @@ TEST_F(LightingDriverTest, TakesNoMoreBouncesThanTheDocumentAsksFor) {
     while (!many.done())
         many.step(input(), Rest::All);
     EXPECT_EQ(many.bounces(), 10U);
+}
+
+TEST_F(LightingDriverTest, LightOfAViewIsLitForItAloneAndAnewForAnotherOne) {
+    auto lighting = std::make_unique<FakeLighting>(calls, 0);
+    lighting->ofView = true;
+    LightingDriver d(std::move(lighting));
+    view.size = {32, 18};
+    EXPECT_TRUE(d.step(input(), Rest::All));
+    EXPECT_TRUE(d.done()) << "no rest is asked for";
+    d.viewIs(view);
+    EXPECT_TRUE(d.done()) << "the same view";
+    EXPECT_EQ(calls, (Calls{{2, true}})) << "the first update has the view, too";
+    view.size.x = 64;
+    d.viewIs(view);
+    EXPECT_FALSE(d.done());
+    EXPECT_EQ(d.bounces(), 0U);
+    EXPECT_TRUE(d.step(input(), Rest::All));
+    view.camera.eye.x += 1;
+    EXPECT_TRUE(d.step(input(), Rest::All)) << "step() looks at its view itself";
+    EXPECT_TRUE(d.done());
+    EXPECT_EQ(calls, (Calls{{2, true}, {2, true}, {2, true}}));
+}
+
+TEST_F(LightingDriverTest, AnotherViewIsNoChangeOfLightThatIsOfNone) {
+    LightingDriver d = driver(2);
+    d.step(input(), Rest::All);
+    ASSERT_TRUE(d.done());
+    view.camera.eye.x += 1;
+    d.viewIs(view);
+    EXPECT_TRUE(d.done());
 }
 
 TEST_F(LightingDriverTest, WithoutALightingThereIsNothingToDo) {
