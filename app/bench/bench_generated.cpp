@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/bench_generated.h"
 
+#include "app/bench/picture_size.h"
 #include "app/commands/progress_line.h"
 #include "app/commands/render_image.h"
 #include "app/commands/scene_options.h"
@@ -14,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <set>
@@ -29,16 +29,6 @@ namespace {
 constexpr std::uint32_t kFirstSamples = 32; ///< per pixel of a reference, before it is known how
                                             ///< many it takes
 
-std::optional<glm::uvec2> sizeOf(const std::string& text) {
-    glm::uvec2 size{0};
-    char rest = 0;
-    if (text.find('-') != std::string::npos ||
-        std::sscanf(text.c_str(), "%5ux%5u%c", &size.x, &size.y, &rest) != 2 || size.x < 1 ||
-        size.y < 1 || std::max(size.x, size.y) > 16384)
-        return {};
-    return size;
-}
-
 /// One generated scene, its references, and who draws it.
 struct Measured {
     const GeneratedBench& options;
@@ -52,7 +42,7 @@ struct Measured {
     Measured(const GeneratedBench& o, std::uint64_t s)
         : options(o), seed(s), generated(generateScene(s)),
           scene(flatten(generated.document, generated.assets)), trace(scene) {
-        const glm::uvec2 size = *sizeOf(o.size);
+        const glm::uvec2 size = *pictureSize(o.size);
         view.view = View::Irradiance;
         view.camera = scene.cameras.front();
         view.width = size.x;
@@ -300,9 +290,7 @@ void addGeneratedOptions(Command& command, GeneratedBench& o) {
         .within(2, 1 << 20);
     command.option("--size", o.size, "Size of the pictures, WxH")
         .needs(generated)
-        .check([](const std::string& text) {
-            return sizeOf(text) ? "" : fmt::format("\"{}\" is not WxH", text);
-        });
+        .check(pictureSizeDefect);
     Option viewport = command.flag("--viewport", o.viewport, "Also draw the pictures with Vulkan");
     viewport.needs(generated);
     command

@@ -4,8 +4,10 @@
 #include "app/bench/leak_room.h"
 #include "app/bench/light_place.h"
 #include "app/bench/measured_scene.h"
+#include "app/bench/picture_size.h"
 #include "app/bench/place_on_device.h"
 #include "app/bench/scene_bench.h"
+#include "app/bench/technique_variants.h"
 #include "app/bench/techniques_page.h"
 #include "app/commands/scene_options.h"
 
@@ -19,6 +21,8 @@
 #include <optional>
 #include <string_view>
 
+#include <fmt/format.h>
+
 namespace limn {
 
 namespace {
@@ -31,7 +35,8 @@ struct TechniquesBench {
     SceneOptions common; ///< lights, sky and dynamic objects of every scene
     CameraOptions camera;
     SceneBenchOptions bench;
-    std::vector<std::string> scenes;
+    std::vector<std::string> scenes, sizes, varied;
+    std::vector<std::uint32_t> points = {0}; ///< numbers of lights; 0: the scene's own
     std::string output, relight = "auto", device;
     std::uint32_t samplesPerPixel = 128;
     int threads = 0;
@@ -82,12 +87,46 @@ Result<std::vector<LightPlace>> placesOf(const TechniquesBench& o) {
     return places;
 }
 
+/// A scene as it is measured: its file, its picture and its lights.
+struct MeasuredView {
+    SceneOptions scene;
+    CameraOptions camera;
+    std::uint32_t points = 0;
+    std::string suffix; ///< tells it from the other views of the scene
+};
+
+/// Every scene in every size with every number of lights.
+std::vector<MeasuredView> viewsOf(const TechniquesBench& o) {
+    std::vector<glm::uvec2> sizes;
+    for (const std::string& size : o.sizes)
+        sizes.push_back(*pictureSize(size));
+    if (sizes.empty())
+        sizes.emplace_back(o.camera.width, o.camera.height);
+    std::vector<MeasuredView> views;
+    for (const std::string& path : o.scenes)
+        for (const glm::uvec2 size : sizes)
+            for (const std::uint32_t points : o.points) {
+                MeasuredView& view = views.emplace_back(MeasuredView{o.common, o.camera, points});
+                view.scene.scene = path;
+                view.camera.width = size.x;
+                view.camera.height = size.y;
+                if (sizes.size() > 1)
+                    view.suffix += fmt::format(", {} x {}", size.x, size.y);
+                if (points > 0)
+                    view.suffix += fmt::format(", {} lights", points);
+                else if (o.points.size() > 1)
+                    view.suffix += ", its own lights";
+            }
+    return views;
+}
+
 Exit runTechniquesBench(const TechniquesBench& o) {
     const ThreadLimit threads(o.threads);
     const Result<std::vector<LightPlace>> places = placesOf(o);
     if (!places)
         return failed(places.error().message);
     SceneBenchOptions bench = o.bench;
+    bench.varied = variedSettings(o.varied);
     bench.show = [json = o.json](const Json& row) {
         if (!json)
             printRow(kTechniqueColumns, row);
@@ -97,12 +136,12 @@ Exit runTechniquesBench(const TechniquesBench& o) {
     const LeakRoom room(o.samplesPerPixel);
     Json rows = Json::array();
     std::vector<PageScene> pages;
-    for (const std::string& path : o.scenes) {
-        SceneOptions scene = o.common;
-        scene.scene = path;
-        const Result<MeasuredScene> opened = openMeasured(scene, o.camera, o.samplesPerPixel);
+    for (const MeasuredView& view : viewsOf(o)) {
+        Result<MeasuredScene> opened =
+            openMeasured(view.scene, view.camera, o.samplesPerPixel, view.points);
         if (!opened)
             return failed(opened.error().message);
+        opened->name += view.suffix;
         Result<PageScene> page = benchScene(bench, room, *places, *opened);
         if (!page)
             return failed(page.error().message);
@@ -146,6 +185,23 @@ void addTechniquesBench(Command& bench) {
         .option("-o,--output", o->output,
                 "Folder for techniques.csv, techniques.json and techniques.html")
         .required();
+    command
+        .option("--vary", o->varied,
+                "KEY=VALUE,...: values of a setting of a technique, such as probes.count, or of "
+                "bakes, such as surfels; may be repeated. Techniques that have some of these "
+                "settings are measured with every combination")
+        .repeatable()
+        .check(variedDefect);
+    command
+        .option("--size", o->sizes,
+                "Sizes of the pictures, WxH, a list, in place of --width and --height")
+        .list()
+        .check(pictureSizeDefect);
+    command
+        .option("--lights", o->points,
+                "Numbers of point lights over the scene, in place of its own, a list; 0: its own")
+        .list()
+        .within(0, 4096);
     command
         .option("--relight", o->relight,
                 "Where to light: cpu; gpu, a Vulkan device; both; or auto, both where there is "

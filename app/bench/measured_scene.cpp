@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/measured_scene.h"
 
+#include "app/bench/moving_lights.h"
 #include "app/commands/progress_line.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace limn {
 
 Result<MeasuredScene> openMeasured(const SceneOptions& options, const CameraOptions& camera,
-                                   std::uint32_t samplesPerPixel) {
+                                   std::uint32_t samplesPerPixel, std::uint32_t points) {
     const Result<ImportedScene> imported = openScene(options);
     if (!imported)
         return tl::make_unexpected(imported.error());
@@ -18,6 +19,12 @@ Result<MeasuredScene> openMeasured(const SceneOptions& options, const CameraOpti
     const Result<Camera> from = chooseCamera(m.scene, camera);
     if (!from)
         return tl::make_unexpected(from.error());
+    if (points > 0) {
+        const SurfacePoints spread = spreadPoints(m.scene, points);
+        if (spread.positions.empty())
+            return fail("--lights: the scene has no static surfaces for lights to stand over");
+        m.scene.lights = pointsOver(m.scene, spread.positions, spread.normals, points);
+    }
     m.trace = std::make_unique<TraceScene>(m.scene);
     m.view = {.view = View::Irradiance,
               .camera = *from,

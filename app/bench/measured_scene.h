@@ -15,7 +15,7 @@ namespace limn {
 
 /// A scene with its references, which techniques are measured against.
 struct MeasuredScene {
-    std::string name;
+    std::string name; ///< of its file, with what tells it from the others of a benchmark
     Scene scene;
     std::unique_ptr<TraceScene> trace;
     ReferenceOptions view;
@@ -25,8 +25,10 @@ struct MeasuredScene {
 };
 
 /// Opens a scene and renders its references. `samplesPerPixel`: of all references of a kind
-/// together. Shows progress on stderr. Fails as openScene() and chooseCamera().
+/// together. `points`: number of point lights over the scene's surfaces in place of its own lights
+/// (moving_lights.h); 0: its own. Shows progress on stderr. Fails as openScene() and
+/// chooseCamera().
 Result<MeasuredScene> openMeasured(const SceneOptions& options, const CameraOptions& camera,
-                                   std::uint32_t samplesPerPixel);
+                                   std::uint32_t samplesPerPixel, std::uint32_t points = 0);
 
 } // namespace limn

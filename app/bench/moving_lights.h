@@ -9,6 +9,14 @@
 
 namespace limn {
 
+/// Points of the static surfaces in world space, with unit normals.
+struct SurfacePoints {
+    std::vector<glm::vec3> positions, normals;
+};
+
+/// `count` points, each of which stands for the same area; none in a scene without static surfaces.
+SurfacePoints spreadPoints(const Scene& scene, std::uint32_t count);
+
 /// `count` point lights, each a twentieth of the scene's size away from a surface along its unit
 /// normal. The surfaces are those of points at even steps through `positions`, which are spread
 /// evenly over the scene.

@@ -78,7 +78,7 @@ Plan planOf(const SceneBenchOptions& o, const std::vector<LightPlace>& places,
     for (const Technique* technique : techniques()) {
         if (!isWanted(o, *technique))
             continue;
-        variants.emplace_back(technique, variantsOf(*technique, bake));
+        variants.emplace_back(technique, variantsOf(*technique, bake, o.varied));
         maxVariants = std::max(maxVariants, variants.back().second.size());
         for (const LightPlace& place : places)
             if (place.lights(*technique))

@@ -4,6 +4,7 @@
 #include "app/bench/leak_room.h"
 #include "app/bench/light_place.h"
 #include "app/bench/measured_scene.h"
+#include "app/bench/settings_sweep.h"
 #include "app/bench/techniques_page.h"
 
 #include "engine/core/result.h"
@@ -17,6 +18,7 @@ namespace limn {
 
 struct SceneBenchOptions {
     std::vector<std::string> techniques; ///< names; empty: all
+    SettingsSweep varied;                ///< of the techniques, for variantsOf()
     int runs = 9;                        ///< maximum number of updates of each kind
     /// Time for all techniques [s]; none: no limit. Settings that do not fit are skipped, and the
     /// coarse ones of all techniques come first.

@@ -78,29 +78,6 @@ double largestDifference(const ImageF& a, const ImageF& b) {
 
 } // namespace
 
-std::vector<Variant> variantsOf(const Technique& technique, const BakeSettings& bake) {
-    std::vector<Variant> variants;
-    if (technique.precomputation) {
-        for (const BakePreset& preset : kBakePresets) {
-            variants.push_back({preset.name, {technique.name, {}}, bake});
-            preset.applyTo(variants.back().bake);
-        }
-        return variants;
-    }
-    const TechniqueSetting* first = technique.settings.empty() ? nullptr : &technique.settings[0];
-    if (!first || first->range.upper <= 1)
-        return {{"defaults", {technique.name, {}}, bake}};
-    for (const double factor : {0.25, 0.5, 1., 2., 4.}) {
-        const double value = std::clamp(factor * first->usual, double(first->range.lower),
-                                        double(first->range.upper));
-        const std::string key = first->setting.key;
-        variants.push_back({fmt::format("{} {:g}", key.substr(key.find('.') + 1), value),
-                            {technique.name, {{key, value}}},
-                            bake});
-    }
-    return variants;
-}
-
 Result<Configuration> configure(const MeasuredScene& m, const Technique& technique, Variant variant,
                                 const Progress& progress) {
     Configuration c{.technique = &technique, .variant = std::move(variant), .scene = m.scene};
@@ -125,9 +102,11 @@ Result<Point> measurePoint(const MeasuredScene& m, const LeakRoom& room, const L
     auto lighting = place.light(*c.technique, c.prepared, c.scene, c.layout);
     if (!lighting)
         return tl::make_unexpected(lighting.error());
+    const Viewpoint view = viewpointOf(m.view.camera, {m.view.width, m.view.height});
     const LightingReport first = (*lighting)->update({.scene = c.scene,
                                                       .trace = m.trace.get(),
                                                       .bounces = c.scene.relight.maxBounces,
+                                                      .view = viewForAll(**lighting, view),
                                                       .marched = true},
                                                      {});
     FieldRenderOptions options;
@@ -138,6 +117,9 @@ Result<Point> measurePoint(const MeasuredScene& m, const LeakRoom& room, const L
     FieldRenderOptions whole = options;
     whole.view = View::Lit;
     Point point{{{"scene", m.name},
+                 {"width", m.view.width},
+                 {"height", m.view.height},
+                 {"lights", m.scene.lights.size()},
                  {"technique", c.technique->label},
                  {"settings", c.variant.name},
                  {"device", place.device},
@@ -146,9 +128,7 @@ Result<Point> measurePoint(const MeasuredScene& m, const LeakRoom& room, const L
                  {"first_ms", first.totalMs}},
                 renderLight(*m.trace, **lighting, *c.layout, options)};
     const ImageF lit = renderLight(*m.trace, **lighting, *c.layout, whole);
-    addTimes(timeUpdates(**lighting, c.scene, *m.trace,
-                         {m.view.camera, float(m.view.width) / float(m.view.height)}, limits.runs),
-             point.row);
+    addTimes(timeUpdates(**lighting, c.scene, *m.trace, view, limits.runs), point.row);
     addErrors(m, point.picture, lit, point.row);
     const TimeLimit limit(limits.liveSeconds);
     if (const Result<void> added = addLiveColumns(

@@ -5,6 +5,7 @@
 #include "app/bench/leak_room.h"
 #include "app/bench/light_place.h"
 #include "app/bench/measured_scene.h"
+#include "app/bench/technique_variants.h"
 #include "app/bench/timed_updates.h"
 
 #include "engine/lighting/precomputed.h"
@@ -16,18 +17,6 @@
 #include <vector>
 
 namespace limn {
-
-/// Settings of a technique that are measured together.
-struct Variant {
-    std::string name;
-    TechniqueChoice choice;
-    BakeSettings bake; ///< read by techniques that precompute
-};
-
-/// The settings to measure, from coarse to fine: the presets for a technique that precomputes, else
-/// its defaults and a quarter to four times the default of its first setting, unless that is a
-/// switch.
-std::vector<Variant> variantsOf(const Technique& technique, const BakeSettings& bake);
 
 /// A technique with some settings, ready to light a scene anywhere.
 struct Configuration {

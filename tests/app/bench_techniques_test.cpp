@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/light_place.h"
 #include "app/bench/live_light.h"
+#include "app/bench/moving_lights.h"
 #include "app/bench/techniques_page.h"
 #include "app/bench/time_limit.h"
 #include "app/bench/timed_updates.h"
@@ -10,6 +11,7 @@
 #include "tests/core/sweep.h"
 #include "tests/trace/simple_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -143,6 +145,25 @@ TEST(LiveLight, LightsMoveTowardsTheMiddleAndTurn) {
     const limn::Scene brighter = limn::withLightsMoved(dark, 0.5f);
     EXPECT_EQ(brighter.sky.radiance, glm::vec3(3));
     EXPECT_EQ(brighter.materials[0].emission, glm::vec3(4.5f));
+}
+
+TEST(MovingLights, StandOverEqualAreasOfTheStaticSurfaces) {
+    limn::simple::SceneBuilder b;
+    b.addMaterial(limn::simple::lambert(glm::vec3(0.5f)));
+    b.add(limn::simple::quad({0, 0, 0}, {0, 0, 1}, {1, 0, 0}));
+    b.add(limn::simple::quad({5, 0, 0}, {0, 0, 3}, {1, 0, 0}));
+    b.add(limn::simple::quad({9, 0, 0}, {0, 0, 9}, {9, 0, 0}), glm::mat4(1), true);
+    const limn::Scene scene = b.build();
+    const limn::SurfacePoints points = limn::spreadPoints(scene, 40);
+    ASSERT_EQ(points.positions.size(), 40U);
+    EXPECT_EQ(std::ranges::count_if(points.positions, [](glm::vec3 p) { return p.x < 2; }), 10);
+    for (const glm::vec3 n : points.normals)
+        EXPECT_EQ(n, glm::vec3(0, 1, 0));
+    const auto lights = limn::pointsOver(scene, points.positions, points.normals, 7);
+    ASSERT_EQ(lights.size(), 7U);
+    for (const limn::Light& light : lights)
+        EXPECT_NEAR(light.position.y, 0.05f * glm::length(scene.bounds.size()), 1e-5f);
+    EXPECT_TRUE(limn::spreadPoints(limn::Scene{}, 3).positions.empty());
 }
 
 TEST(LiveLight, ProbesThatTakeTurnsLagAndThoseThatDoNotFollowAtOnce) {
@@ -326,6 +347,27 @@ TEST_F(CommandLine, BenchTechniquesSkipsWhatDoesNotFitIntoItsTime) {
         EXPECT_EQ(r["technique"], "Ambient") << "no bake ends in 30 ms";
     EXPECT_NE(contents(out + "/techniques.html").find("Skipped: Illuminance composition, draft"),
               std::string::npos);
+}
+
+TEST_F(CommandLine, BenchTechniquesVariesSettingsSizesAndLights) {
+    const std::string start = "bench techniques generated:2 --technique probes --relight cpu "
+                              "--spp 4 --runs 1 --json -o " +
+                              path("varied");
+    const nlohmann::json result = json(
+        start + " --vary probes.count=27 --vary probes.side=8,12 --size 8x6,16x12 --lights 0,3");
+    ASSERT_EQ(result["rows"].size(), 8U);
+    const auto& first = result["rows"][0];
+    EXPECT_EQ(first["settings"], "count 27, side 8");
+    EXPECT_EQ(first["width"], 8);
+    EXPECT_EQ(first["height"], 6);
+    EXPECT_EQ(result["rows"][1]["settings"], "count 27, side 12");
+    EXPECT_EQ(result["rows"][1]["scene"], first["scene"]);
+    EXPECT_EQ(result["rows"][2]["lights"], 3);
+    EXPECT_NE(result["rows"][2]["scene"], first["scene"]);
+    EXPECT_EQ(result["rows"][4]["width"], 16);
+    EXPECT_EQ(limn(start + " --vary probes.nothing=3").exit, 2);
+    EXPECT_EQ(limn(start + " --size 8").exit, 2);
+    EXPECT_EQ(limn(start + " --lights -1").exit, 2);
 }
 
 TEST_F(CommandLine, BenchTechniquesMeasuresWhatIsAskedAndWritesAPage) {
