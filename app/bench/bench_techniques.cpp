@@ -16,7 +16,9 @@
 #include "engine/core/replace_file.h"
 #include "engine/techniques/technique_table.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -120,6 +122,18 @@ std::vector<MeasuredView> viewsOf(const TechniquesBench& o) {
     return views;
 }
 
+/// The columns of the printed table, wide enough to tell views and varied settings apart.
+std::vector<Column> columnsFor(const TechniquesBench& o, const std::vector<MeasuredView>& views) {
+    std::vector<Column> columns(std::begin(kTechniqueColumns), std::end(kTechniqueColumns));
+    const auto longest = std::ranges::max_element(
+        views, {}, [](const MeasuredView& view) { return view.suffix.size(); });
+    if (longest != views.end())
+        columns[0].width -= int(longest->suffix.size());
+    if (!o.varied.empty())
+        columns[2].width = -16 * int(o.varied.size() + 1);
+    return columns;
+}
+
 Exit runTechniquesBench(const TechniquesBench& o) {
     const ThreadLimit threads(o.threads);
     const Result<std::vector<LightPlace>> places = placesOf(o);
@@ -127,16 +141,18 @@ Exit runTechniquesBench(const TechniquesBench& o) {
         return failed(places.error().message);
     SceneBenchOptions bench = o.bench;
     bench.varied = variedSettings(o.varied);
-    bench.show = [json = o.json](const Json& row) {
-        if (!json)
-            printRow(kTechniqueColumns, row);
+    const std::vector<MeasuredView> views = viewsOf(o);
+    const std::vector<Column> columns = columnsFor(o, views);
+    bench.show = [&](const Json& row) {
+        if (!o.json)
+            printRow(columns, row);
     };
     if (!o.json)
-        printTitles(kTechniqueColumns);
+        printTitles(columns);
     const LeakRoom room(o.samplesPerPixel);
     Json rows = Json::array();
     std::vector<PageScene> pages;
-    for (const MeasuredView& view : viewsOf(o)) {
+    for (const MeasuredView& view : views) {
         Result<MeasuredScene> opened =
             openMeasured(view.scene, view.camera, o.samplesPerPixel, view.points);
         if (!opened)
