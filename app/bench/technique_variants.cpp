@@ -26,12 +26,6 @@ bool isBakeSetting(std::string_view key) {
     return found;
 }
 
-const TechniqueSetting* settingIn(const Technique& technique, std::string_view key) {
-    const auto found = std::ranges::find_if(
-        technique.settings, [&](const TechniqueSetting& s) { return s.setting.key == key; });
-    return found == technique.settings.end() ? nullptr : &*found;
-}
-
 /// What is wrong with one value of a technique's setting.
 std::string valueDefect(const TechniqueSetting& setting, const std::string& text) {
     const std::optional<double> value = numberOf(text);
@@ -44,7 +38,7 @@ std::string valueDefect(const TechniqueSetting& setting, const std::string& text
 
 std::string valueDefect(std::string_view key, const std::string& text) {
     for (const Technique* technique : techniques())
-        if (const TechniqueSetting* setting = settingIn(*technique, key))
+        if (const TechniqueSetting* setting = findSetting(*technique, key))
             return valueDefect(*setting, text);
     if (!isBakeSetting(key))
         return "neither a technique nor a bake has this setting";
@@ -96,7 +90,7 @@ std::vector<Variant> variantsOf(const Technique& technique, const BakeSettings& 
     std::vector<Variant> variants = {{"", {technique.name, {}}, bake}};
     bool varies = false;
     for (const auto& [key, values] : varied) {
-        const bool ofTechnique = settingIn(technique, key) != nullptr;
+        const bool ofTechnique = findSetting(technique, key) != nullptr;
         if (!ofTechnique && !(technique.precomputation && isBakeSetting(key)))
             continue;
         varies = true;

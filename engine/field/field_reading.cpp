@@ -48,8 +48,8 @@ static void addBands(const FieldPoint& point, glm::vec3 direction, int bands,
 
 /// Adds what the field's other parts contribute.
 template <class AddTaps>
-static void addParts(const FieldPoint& point, glm::vec3 weight, FieldReading& reading,
-                     const AddTaps& addTaps) {
+static void readParts(const FieldPoint& point, glm::vec3 weight, FieldReading& reading,
+                      const AddTaps& addTaps) {
     FieldTaps taps;
     for (std::uint32_t k = 0; k < point.field.parts.size(); ++k) {
         taps.clear();
@@ -69,8 +69,8 @@ void addIrradiance(const FieldPoint& point, glm::vec3 weight, FieldReading& read
     weight = clampedWeight(sampleIrradiance(point), weight);
     addBands(point, point.normal, std::min(int(point.field.bands), kIrradianceBands),
              irradianceFactors(), weight, reading);
-    addParts(point, weight, reading,
-             [&](const FieldPart& part, FieldTaps& taps) { part.irradianceTaps(point, taps); });
+    readParts(point, weight, reading,
+              [&](const FieldPart& part, FieldTaps& taps) { part.irradianceTaps(point, taps); });
 }
 
 void addRadiance(const FieldPoint& point, glm::vec3 direction, glm::vec3 weight,
@@ -80,7 +80,7 @@ void addRadiance(const FieldPoint& point, glm::vec3 direction, glm::vec3 weight,
     hemisphereRadianceWeights(bands, point.normal, direction, ofCoefficients);
     weight = clampedWeight(sampleRadiance(point, direction), weight);
     addSum(point, {ofCoefficients, std::size_t(bands * bands)}, weight, reading);
-    addParts(point, weight, reading, [&](const FieldPart& part, FieldTaps& taps) {
+    readParts(point, weight, reading, [&](const FieldPart& part, FieldTaps& taps) {
         part.radianceTaps(point, direction, taps);
     });
 }
@@ -89,7 +89,7 @@ void addLobe(const FieldPoint& point, glm::vec3 direction, int bands,
              const std::array<float, kMaxBands>& factors, glm::vec3 weight, FieldReading& reading) {
     weight = clampedWeight(sampleLobe(point, direction, bands, factors), weight);
     addBands(point, direction, std::min(bands, int(point.field.bands)), factors, weight, reading);
-    addParts(point, weight, reading, [&](const FieldPart& part, FieldTaps& taps) {
+    readParts(point, weight, reading, [&](const FieldPart& part, FieldTaps& taps) {
         part.lobeTaps(point, direction, bands, factors, taps);
     });
 }

@@ -34,7 +34,7 @@ struct FieldRenderOptions {
     std::shared_ptr<const IndirectField> emitted;
     std::uint32_t gatherRays = 0;
     MarchedCounts* marched = nullptr; ///< counts are added to it; null: nothing is counted
-    // The following two serve comparisons.
+    // Only benchmarks and tests change the following two.
     bool windowedLobes = true; ///< else lobes are cut off after the field's bands, and ring
     bool allBands = false;     ///< reflections use all of the field's bands, needed or not
 };

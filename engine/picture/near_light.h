@@ -46,8 +46,8 @@ std::vector<NearSurface> findNearSurfaces(const NearLight& near, const Hit& hit,
 /// Walks an unbiased estimate of the irradiance [W m^-2] to add to the field's at point `p`: the
 /// light that each near surface sends, less what the field says arrives from its direction. The
 /// surface sends direct light with traced shadows and the field's light there. The estimate may be
-/// negative; its mean, added to the field's irradiance, is so only as far as the field's harmonics
-/// ring. It is 0 where no surface is near.
+/// negative. The sum of its mean and the field's irradiance is negative only where the field's
+/// harmonics ring. The estimate is 0 where no surface is near.
 ///
 /// Arikan, Forsyth, O'Brien. Fast and Detailed Approximate Global Illumination by Irradiance
 /// Decomposition. 2005. They separate irradiance into near and distant light and sample the latter

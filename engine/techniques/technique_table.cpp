@@ -79,12 +79,17 @@ std::string techniqueNames() {
     return names;
 }
 
-static bool someoneHas(const std::string& key) {
-    for (const Technique* technique : kTechniques)
-        for (const TechniqueSetting& setting : technique->settings)
-            if (setting.setting.key == key)
-                return true;
-    return false;
+const TechniqueSetting* findSetting(const Technique& technique, std::string_view key) {
+    for (const TechniqueSetting& setting : technique.settings)
+        if (setting.setting.key == key)
+            return &setting;
+    return nullptr;
+}
+
+static bool someoneHas(std::string_view key) {
+    return std::ranges::any_of(kTechniques, [&](const Technique* technique) {
+        return findSetting(*technique, key) != nullptr;
+    });
 }
 
 std::string choiceDefect(const TechniqueChoice& choice) {

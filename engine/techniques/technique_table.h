@@ -16,6 +16,9 @@ std::span<const Technique* const> techniques();
 /// The technique of that name, or null.
 const Technique* findTechnique(std::string_view name);
 
+/// The technique's setting with that key, or null.
+const TechniqueSetting* findSetting(const Technique& technique, std::string_view key);
+
 /// The technique whose data is precomputed for a document: the chosen one, or, where that needs
 /// none, the first that does, so that switching back finds its data.
 const Technique& precomputingTechnique(const TechniqueChoice& choice);

@@ -11,16 +11,16 @@
 namespace limn::relight_command_test {
 namespace {
 
-/// Cornell with few texels, in the folder `where`.
-std::string coarseCornell(const std::string& where) {
+/// Writes a project of Cornell with few texels to `file` and returns `file`.
+std::string coarseCornell(const std::string& file) {
     const std::string folder = sourcePath("projects/cornell");
     nlohmann::json project = nlohmann::json::parse(contents(folder + "/cornell.limn"));
     project["scene"] = folder + "/" + std::string(project["scene"]);
     for (nlohmann::json& object : project["objects"])
         if (object.contains("bakeSettings"))
             object["bakeSettings"].update({{"surfels", 256}, {"lightmapCaches", 1000}});
-    write(where, project.dump());
-    return where;
+    write(file, project.dump());
+    return file;
 }
 
 TEST_F(CommandLine, RenderLightsAnyTechniqueOnEitherDevice) {
