@@ -49,10 +49,11 @@ float windowAt(const Light& light, glm::vec3 p) {
     return s.irradiance.x * s.distance * s.distance;
 }
 
-/// What the texel sees; none where that reflects nothing. Counts the ray, if it needs one.
+/// What the texel at `place` of a view sees; none where that is dark. Counts the ray, if it needs
+/// one. Does not set RsmTexel::view.
 std::optional<RsmTexel> castTexel(const TraceScene& trace, const Scene& scene, const Light& light,
-                                  const RsmView& view, glm::uvec2 texel, std::uint32_t& rays) {
-    const glm::vec2 ndc = (glm::vec2(texel) + 0.5f) * (2 / float(view.size)) - 1.f;
+                                  const RsmView& view, glm::uvec2 place, std::uint32_t& rays) {
+    const glm::vec2 ndc = (glm::vec2(place) + 0.5f) * (2 / float(view.size)) - 1.f;
     const glm::vec3 across = ndc.x * view.right + ndc.y * view.up;
     Ray ray{view.origin, view.forward};
     float spread = view.texelArea(), share = 1;
@@ -75,14 +76,20 @@ std::optional<RsmTexel> castTexel(const TraceScene& trace, const Scene& scene, c
     const Instance& instance = scene.instances[hit.instance];
     if (!hit.frontFace && !isTwoSided(scene.materialOf(instance)))
         return {};
-    RsmTexel seen{.instance = hit.instance,
+    RsmTexel seen{.place = place,
+                  .instance = hit.instance,
+                  .triangle = hit.triangle,
+                  .u = hit.u,
+                  .v = hit.v,
                   .position = hit.position,
-                  .normal = hit.frontFace ? hit.geometricNormal : -hit.geometricNormal};
+                  .normal = hit.frontFace ? hit.geometricNormal : -hit.geometricNormal,
+                  .direction = ray.direction,
+                  .area = view.parallel ? spread : spread * hit.t * hit.t};
     seen.incident = view.power * spread * share * windowAt(light, hit.position);
     const float cosine = std::max(-glm::dot(seen.normal, ray.direction), kMinCosine);
-    const float area = (view.parallel ? spread : spread * hit.t * hit.t) / cosine;
-    seen.albedo = surfaceMaterialOver(scene, instance, hit.triangle, hit.u, hit.v, area).albedo;
-    if (!(seen.incident > 0) || seen.albedo == glm::vec3(0))
+    seen.albedo =
+        surfaceMaterialOver(scene, instance, hit.triangle, hit.u, hit.v, seen.area / cosine).albedo;
+    if (!(seen.incident > 0))
         return {};
     return seen;
 }
@@ -136,7 +143,7 @@ rsmViews(const Light& light, const Bounds& bounds, std::uint32_t size,
 }
 
 ReflectiveShadowMap castRsm(const TraceScene& trace, const Scene& scene, const Light& light,
-                            std::uint32_t size, const Progress& progress) {
+                            std::uint32_t size, const Progress& progress, RsmTexels kept) {
     const Light unit = unitLight(light);
     struct Row {
         std::vector<RsmTexel> texels;
@@ -150,10 +157,14 @@ ReflectiveShadowMap castRsm(const TraceScene& trace, const Scene& scene, const L
     parallelRanges(rows.size(), 4, progress, "shadow map", [&](std::size_t begin, std::size_t end) {
         for (std::size_t r = begin; r < end; ++r) {
             const RsmView& view = views[r / rowsOfView];
-            for (std::uint32_t x = 0; x < view.size; ++x)
-                if (const auto seen = castTexel(trace, scene, unit, view,
-                                                {x, std::uint32_t(r % rowsOfView)}, rows[r].rays))
-                    rows[r].texels.push_back(*seen);
+            for (std::uint32_t x = 0; x < view.size; ++x) {
+                auto seen = castTexel(trace, scene, unit, view, {x, std::uint32_t(r % rowsOfView)},
+                                      rows[r].rays);
+                if (!seen || (kept == RsmTexels::Diffuse && seen->albedo == glm::vec3(0)))
+                    continue;
+                seen->view = std::uint32_t(r / rowsOfView);
+                rows[r].texels.push_back(*seen);
+            }
         }
     });
     ReflectiveShadowMap map;

@@ -126,6 +126,35 @@ TEST(ReflectiveShadowMap, LeavesOutBacksAndSurfacesThatReflectNothing) {
         EXPECT_GT(glm::dot(texel.normal, outside.position - texel.position), 0);
     scene.materials[0].baseColor = glm::vec4(0, 0, 0, 1);
     EXPECT_TRUE(cast(scene, outside).texels.empty()) << "black";
+    EXPECT_EQ(castRsm(TraceScene(scene), scene, outside, 64, {}, RsmTexels::All).texels.size(),
+              both.texels.size());
+}
+
+// A texel says through which part of which view its piece is seen: the ray through its middle ends
+// there. The pieces' areas across the light, over the squared distance, make up the sphere.
+TEST(ReflectiveShadowMap, TellsThePlaceAndTheAreaOfEachTexel) {
+    const Scene scene = room();
+    const Light point{.kind = LightKind::Point, .position = glm::vec3(0.5f, 1, 0)};
+    const std::vector<RsmView> views =
+        rsmViews(unitLight(point), scene.bounds, 64, [](glm::vec3 p, glm::vec3) { return p; });
+    double solidAngle = 0;
+    for (const RsmTexel& t : cast(scene, point).texels) {
+        const RsmView& view = views.at(t.view);
+        const glm::vec2 ndc = (glm::vec2(t.place) + 0.5f) * (2 / float(view.size)) - 1.f;
+        const glm::vec3 way = glm::normalize(view.forward + ndc.x * view.right + ndc.y * view.up);
+        const float distance = glm::distance(t.position, point.position);
+        EXPECT_LT(glm::distance(way * distance, t.position - point.position), 1e-4f);
+        EXPECT_LT(glm::distance(way, t.direction), 1e-5f);
+        solidAngle += double(t.area / (distance * distance));
+        const Mesh& mesh = scene.meshOf(scene.instances[t.instance]);
+        const std::uint32_t* corner = &mesh.indices[3 * std::size_t(t.triangle)];
+        EXPECT_LT(glm::distance(mesh.positions[corner[0]] * (1 - t.u - t.v) +
+                                    mesh.positions[corner[1]] * t.u +
+                                    mesh.positions[corner[2]] * t.v,
+                                t.position),
+                  1e-4f);
+    }
+    EXPECT_NEAR(solidAngle, 4 * kPi, 4 * kPi * 1e-3);
 }
 
 TEST(ReflectiveShadowMap, IsTheSameForAnyColourAndNumberOfThreads) {
