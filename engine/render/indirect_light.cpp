@@ -91,9 +91,6 @@ static std::shared_ptr<const GpuField> uploadField(gpu::Device& device, const In
                                         maps, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grid depths"));
     if (field.gridMoments)
         out->gridWeights = field.gridMoments->smooth ? GRID_SMOOTH_MOMENTS : GRID_MOMENTS;
-    for (const auto& part : field.parts)
-        logWarning(
-            fmt::format("the light of a {} is missing in pictures of this device", part->name()));
     uploader.flush(); // before other work is submitted
     if (any)
         out->marched = uploadMarched(device, field);
@@ -119,15 +116,6 @@ gpu::Image uploadReflectionTable(gpu::Device& device) {
                               .name = "reflection table"});
     gpu::Uploader(device).image(image, std::as_bytes(reflectionTable()));
     return image;
-}
-
-void bindMarchedMaps(gpu::Device& device, VkDescriptorSet set, std::uint32_t binding,
-                     const GpuField& field) {
-    const GpuMarchedMaps* maps = field.marched.get();
-    for (const gpu::Buffer* buffer :
-         {maps ? &maps->planes : &field.grid, maps ? &maps->nearest : &field.grid,
-          maps ? &maps->radiance : &field.grid})
-        gpu::writeBuffer(device, set, binding++, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, buffer->handle);
 }
 
 void describeField(const GpuField& field, GeometryView& view) {

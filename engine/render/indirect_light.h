@@ -25,11 +25,6 @@ IndirectLight uploadIndirectLight(gpu::Device& device, const IndirectField& fiel
 /// Uploads limn::reflectionTable() as a sampled RGBA32F array image.
 gpu::Image uploadReflectionTable(gpu::Device& device);
 
-/// Writes planes, nearest surfaces and radiance of the field's marched maps into three storage
-/// buffers of `set` from `binding` on; without maps, a buffer to bind that no shader reads.
-void bindMarchedMaps(gpu::Device& device, VkDescriptorSet set, std::uint32_t binding,
-                     const GpuField& field);
-
 /// Fills in the members of `frame` that describe the grid, and the field's unit.
 void describeField(const GpuField& field, shared::GpuFrame& frame);
 /// Fills in how surfaces read the field, besides its grid.

@@ -17,14 +17,16 @@ struct SurfaceMapView {
     glm::mat4 toClip{1};
 };
 
-/// The surfaces that such a view sees, for compute shaders: square images in
-/// SHADER_READ_ONLY_OPTIMAL. The handles belong to whoever returned this struct.
+/// The surfaces that such a view sees, for compute shaders: images in SHADER_READ_ONLY_OPTIMAL. The
+/// handles belong to whoever returned this struct.
 struct SurfaceMap {
     VkImageView albedo = VK_NULL_HANDLE;  ///< rgb: diffuse; 0 on the back of a one-sided surface
     VkImageView surface = VK_NULL_HANDLE; ///< as packSurface() of surface_pack.glsl
     VkImageView depth = VK_NULL_HANDLE;   ///< 0 where there is no surface
-    VkSampler sampler = VK_NULL_HANDLE;   ///< nearest
-    std::uint64_t bytes = 0;              ///< of the images, which are kept
+    /// xy as surface.frag writes them, metallic, roughness
+    VkImageView receiver = VK_NULL_HANDLE;
+    VkSampler sampler = VK_NULL_HANDLE; ///< nearest
+    std::uint64_t bytes = 0;            ///< of the images, which are kept
 };
 
 /// Records work that reads the map of the view with that number.

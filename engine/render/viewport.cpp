@@ -44,17 +44,15 @@ static_assert(std::uint32_t(View::Direct) == VIEW_DIRECT && std::uint32_t(View::
               std::uint32_t(View::Albedo) == VIEW_ALBEDO &&
               std::uint32_t(View::Normals) == VIEW_NORMALS);
 
-constexpr std::array kFrameTypes = {
+constexpr std::array<VkDescriptorType, FRAME_BINDINGS> kFrameTypes = {
     VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
-static_assert(std::ranges::count(kFrameTypes, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) ==
+// The field or a technique's own pass binds up to five beside them.
+static_assert(std::ranges::count(kFrameTypes, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) + 5 ==
               gpu::kStorageBuffers);
 
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
@@ -124,7 +122,7 @@ struct Viewport::Impl {
     MaterialSet materials;
     gpu::DescriptorSetLayout frameLayout;
     gpu::DescriptorPool framePool;
-    gpu::Sampler lightmapSampler;
+    gpu::Sampler tableSampler;
     gpu::Image reflectionTable;
     GeometryPasses geometry;
     SurfaceImages surfaces;
@@ -138,7 +136,9 @@ struct Viewport::Impl {
     TonemapPass tonemap;
     OverlayPass overlay;
     ShadowMaps shadows;
+    IndirectLight noIndirect; ///< a black field
     IndirectLight indirect;
+    std::shared_ptr<LightPass> lightPass; ///< null: none
     RenderScene scene;
     PartedLights parted;
     const std::vector<Light>& lights = parted.lights; ///< those that shine on anything
@@ -163,17 +163,17 @@ struct Viewport::Impl {
 Viewport::Impl::Impl(gpu::Device& d)
     : device(d), materials(d), frameLayout(gpu::createSetLayout(d, kFrameTypes)),
       framePool(gpu::createDescriptorPool(d, kFrameSlots, kFrameTypes)),
-      lightmapSampler(gpu::createSampler(d, {.mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST,
-                                             .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                             .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
+      tableSampler(gpu::createSampler(d, {.mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                          .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                          .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
       reflectionTable(uploadReflectionTable(d)),
       geometry(d, frameLayout.handle, materials.layout()), surfaces(d),
       surfaceMaps(d, frameLayout, kFrameTypes), indirectPass(d, frameLayout.handle),
       nearPass(d, frameLayout.handle), sky(d, frameLayout.handle), direct(d, frameLayout.handle),
       texelSampler(gpu::createSampler(
           d, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST})),
-      mean(d), tonemap(d), overlay(d), shadows(d), indirect(uploadIndirectLight(d, {})),
-      relightTimes(d, 1) {
+      mean(d), tonemap(d), overlay(d), shadows(d), noIndirect(uploadIndirectLight(d, {})),
+      indirect(noIndirect), relightTimes(d, 1) {
     for (FrameSlot& slot : slots) {
         slot.frame = gpu::Buffer(d, {.size = sizeof(GpuFrame),
                                      .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
@@ -231,23 +231,23 @@ void Viewport::Impl::writeFrame(FrameSlot& slot, const ViewportOptions& options,
 }
 
 void Viewport::Impl::writeFrameSet(const FrameSlot& slot) {
-    gpu::writeBuffer(device, slot.set, 0, kFrameTypes[0], slot.frame.handle);
-    gpu::writeBuffer(device, slot.set, 1, kFrameTypes[1], slot.lights.lights.handle);
-    gpu::writeBuffer(device, slot.set, 2, kFrameTypes[2], slot.lights.shadowViews.handle);
-    gpu::writeTexture(device, slot.set, 3, shadows.atlasView(), shadows.sampler());
-    gpu::writeTexture(device, slot.set, 4, indirect.field->lightmap.view, lightmapSampler.handle);
-    gpu::writeBuffer(device, slot.set, 5, kFrameTypes[5], indirect.field->grid.handle);
-    gpu::writeTexture(device, slot.set, 6, surfaces.surface.view, texelSampler.handle);
-    gpu::writeTexture(device, slot.set, 7, surfaces.depth.view, texelSampler.handle);
-    const gpu::Buffer* depth = indirect.field->gridDepth.get(); // without, it is not read
-    gpu::writeBuffer(device, slot.set, 8, kFrameTypes[8],
-                     depth ? depth->handle : indirect.field->grid.handle);
-    gpu::writeTexture(device, slot.set, 9, surfaces.emitted.view, texelSampler.handle);
-    gpu::writeTexture(device, slot.set, 10, surfaces.receiver.view, texelSampler.handle);
-    gpu::writeTexture(device, slot.set, 11, reflectionTable.view, lightmapSampler.handle);
-    gpu::writeBuffer(device, slot.set, 12, kFrameTypes[12],
-                     scene.lookupSnaps ? scene.lookupSnaps.handle : indirect.field->grid.handle);
-    bindMarchedMaps(device, slot.set, 13, *indirect.field);
+    const auto buffer = [&](std::uint32_t binding, const gpu::Buffer& bound) {
+        gpu::writeBuffer(device, slot.set, binding, kFrameTypes[binding], bound.handle);
+    };
+    const auto image = [&](std::uint32_t binding, const gpu::Image& bound) {
+        gpu::writeTexture(device, slot.set, binding, bound.view, texelSampler.handle);
+    };
+    buffer(FRAME_BLOCK, slot.frame);
+    buffer(FRAME_LIGHTS, slot.lights.lights);
+    buffer(FRAME_SHADOW_VIEWS, slot.lights.shadowViews);
+    gpu::writeTexture(device, slot.set, FRAME_SHADOW_ATLAS, shadows.atlasView(), shadows.sampler());
+    image(FRAME_SURFACE, surfaces.surface);
+    image(FRAME_DEPTH, surfaces.depth);
+    image(FRAME_EMITTED, surfaces.emitted);
+    image(FRAME_RECEIVER, surfaces.receiver);
+    gpu::writeTexture(device, slot.set, FRAME_REFLECTIONS, reflectionTable.view,
+                      tableSampler.handle);
+    buffer(FRAME_LOOKUP_SNAPS, scene.lookupSnaps ? scene.lookupSnaps : slot.lights.lights);
 }
 
 void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex,
@@ -285,9 +285,13 @@ void Viewport::Impl::recordIndirect(VkCommandBuffer cmd, const FrameSlot& slot,
                                          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                          VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
     beginRendering(cmd, {options.width, options.height}, color, nullptr, false);
-    indirectPass.record(cmd, slot.set, options.view, options.diffuse, surfaces.drawn(),
-                        indirect.field->chroma);
+    indirectPass.record(cmd, slot.set, options.view, options.diffuse, surfaces.drawn(), slotIndex);
     vkCmdEndRendering(cmd);
+    if (lightPass && showsBouncedLight(options.view)) {
+        beginOnLinear(cmd, options);
+        lightPass->record({cmd, slot.set, options.view, options.diffuse});
+        vkCmdEndRendering(cmd);
+    }
     if (options.view == View::Lit && sky.active()) {
         beginOnLinear(cmd, options);
         sky.record(cmd, slot.set, slotIndex);
@@ -295,7 +299,7 @@ void Viewport::Impl::recordIndirect(VkCommandBuffer cmd, const FrameSlot& slot,
     }
     if (nearPass.active(options)) {
         beginOnLinear(cmd, options);
-        nearPass.record(cmd, slot.set, options, *indirect.field, samples);
+        nearPass.record(cmd, slot.set, options, *indirect.field, samples, slotIndex);
         vkCmdEndRendering(cmd);
     }
 }
@@ -399,14 +403,30 @@ void Viewport::setLighting(const Scene& scene) {
     m_impl->stats.lightsOff = m_impl->parted.lightsOff;
 }
 
-void Viewport::setIndirect(const IndirectField& field) {
+void Viewport::setIndirect(const IndirectField& field, std::shared_ptr<LightPass> parts) {
     const auto start = Clock::now();
+    for (const auto& part : field.parts)
+        if (!parts)
+            logWarning(fmt::format("the light of a {} is missing in pictures of this device",
+                                   part->name()));
     m_impl->indirect = uploadIndirectLight(m_impl->device, field, m_impl->indirect);
+    m_impl->lightPass = std::move(parts);
     m_impl->pendingUploadMs += msSince(start);
 }
 
 void Viewport::setIndirect(std::shared_ptr<const GpuField> field) {
     m_impl->indirect = {.field = std::move(field)};
+    m_impl->lightPass = nullptr;
+}
+
+void Viewport::setIndirect(std::shared_ptr<LightPass> pass) {
+    assert(pass);
+    m_impl->indirect = m_impl->noIndirect;
+    m_impl->lightPass = std::move(pass);
+}
+
+VkDescriptorSetLayout Viewport::frameLayout() const {
+    return m_impl->frameLayout.handle;
 }
 
 void Viewport::setCoarseShadows(bool coarse) {
@@ -440,6 +460,7 @@ void Viewport::Impl::draw(const ViewportOptions& options) {
         view = throughPoint(view, point, options.width, options.height);
     writeFrame(slot, options, shadowSlots, point);
     writeFrameSet(slot);
+    indirectPass.bind(*indirect.field, slotIndex);
     materials.writeFactors(slotIndex);
     slot.uploadMs = pendingUploadMs + msSince(start);
     pendingUploadMs = 0;
@@ -529,14 +550,14 @@ ShadowedLights Viewport::shadowedLights() {
             .version = v.relightVersion};
 }
 
-void Viewport::drawSurfaceMaps(std::span<const SurfaceMapView> views, std::uint32_t size,
+void Viewport::drawSurfaceMaps(std::span<const SurfaceMapView> views, glm::uvec2 size,
                                const ReadSurfaceMap& read) {
     Impl& v = *m_impl;
     const auto slotIndex = std::uint32_t(v.frames % kFrameSlots); // the next frame's
     v.device.wait(v.slots[slotIndex].submission);
     v.materials.writeFactors(slotIndex);
-    v.surfaceMaps.draw(v.geometry, v.scene, v.materials, *v.indirect.field, slotIndex, views, size,
-                       read);
+    v.surfaceMaps.draw(v.geometry, v.scene, v.materials, v.reflectionTable.view, slotIndex, views,
+                       size, read);
 }
 
 VkImageView Viewport::colorView() const {

@@ -5,6 +5,7 @@
 #include "engine/field/indirect_field.h"
 #include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/render/gpu_field.h"
+#include "engine/render/light_pass.h"
 #include "engine/render/shadowed_lights.h"
 #include "engine/render/surface_map.h"
 #include "engine/scene/scene.h"
@@ -76,10 +77,16 @@ public:
     void setLighting(const Scene& scene);
 
     /// Uploads indirect light. The version is ignored, because fields of two bakes may share one.
-    void setIndirect(const IndirectField& field);
+    /// `parts` draws what the field's parts hold; null: that is missing in pictures.
+    void setIndirect(const IndirectField& field, std::shared_ptr<LightPass> parts = nullptr);
     /// Uses indirect light that was computed on the viewport's device; must not be null. Nothing is
     /// uploaded; whatever the owner writes later appears in subsequent frames.
     void setIndirect(std::shared_ptr<const GpuField> field);
+    /// Uses indirect light of a technique's own kind; must not be null. It replaces all other.
+    void setIndirect(std::shared_ptr<LightPass> pass);
+
+    /// Layout of set 0 of a LightPass.
+    VkDescriptorSetLayout frameLayout() const;
 
     /// Returns the lights of the last setLighting() with their shadow maps, after redrawing maps
     /// that are out of date. PointIrradiance lights points with them. The result is valid until the
@@ -87,9 +94,9 @@ public:
     ShadowedLights shadowedLights();
 
     /// Draws the scene of the last setScene() as each of `views` sees it, one after the other into
-    /// the same images of `size` x `size` texels, and lets `read` record compute shaders that read
+    /// the same images of `size` texels, and lets `read` record compute shaders that read
     /// them, with the number of the view. Waits for the GPU.
-    void drawSurfaceMaps(std::span<const SurfaceMapView> views, std::uint32_t size,
+    void drawSurfaceMaps(std::span<const SurfaceMapView> views, glm::uvec2 size,
                          const ReadSurfaceMap& read);
 
     /// Sets whether shadow maps drawn from now on have half as many texels across, as suits moving

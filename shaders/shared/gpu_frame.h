@@ -18,6 +18,28 @@ using glm::vec4;
 using uint = std::uint32_t;
 #endif
 
+// Bindings of set 0 of all passes over a picture: what is seen in each pixel, and the lights
+#define FRAME_BLOCK 0u
+#define FRAME_LIGHTS 1u
+#define FRAME_SHADOW_VIEWS 2u
+#define FRAME_SHADOW_ATLAS 3u
+#define FRAME_SURFACE 4u // images, as surface.frag writes them
+#define FRAME_DEPTH 5u
+#define FRAME_EMITTED 6u
+#define FRAME_RECEIVER 7u
+#define FRAME_REFLECTIONS 8u // limn::reflectionTable()
+#define FRAME_LOOKUP_SNAPS 9u
+#define FRAME_BINDINGS 10u
+
+// Bindings of set 1 of indirect.frag: the field that it samples
+#define FIELD_LIGHTMAP 0u
+#define FIELD_GRID 1u
+#define FIELD_GRID_WEIGHTS 2u
+#define FIELD_MARCHED_PLANES 3u
+#define FIELD_MARCHED_NEAREST 4u
+#define FIELD_MARCHED_RADIANCE 5u
+#define FIELD_BINDINGS 6u
+
 // clang-format off
 /// Data that all draws of a frame share.
 struct GpuFrame {
@@ -42,7 +64,7 @@ struct GpuDraw {
     uint flags;      // DRAW_*
     float backOffset; // offset in v of the lightmap from the place of a front down to that of its back
     float nearReach;  // m; of nearReaches() of engine/lightmap/near_reach.h
-    uint pad;
+    uint instance;    // index into limn::Scene::instances
 };
 // clang-format on
 

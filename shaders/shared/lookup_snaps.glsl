@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where lightmap lookups read. Needs `frame`.
 
-layout(set = 0, binding = 12, std430) readonly buffer LookupSnaps { uint lookupSnaps[]; };
+layout(set = 0, binding = FRAME_LOOKUP_SNAPS, std430) readonly buffer LookupSnaps { uint lookupSnaps[]; };
 
 // kFineLookup, kFineCells, kFineLevels of engine/lightmap/layout/lightmap_layout.h.
 const uint kFineLookup = 1u << 31;

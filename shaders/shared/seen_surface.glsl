@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The surface seen in a pixel, as surface.frag left it. Needs `frame` and surface_pack.glsl.
 
-layout(set = 0, binding = 6) uniform usampler2D surfaceImage;
-layout(set = 0, binding = 7) uniform sampler2D depthImage; // 0: no surface, infinitely far
-layout(set = 0, binding = 10) uniform sampler2D receiverImage;
+layout(set = 0, binding = FRAME_SURFACE) uniform usampler2D surfaceImage;
+layout(set = 0, binding = FRAME_DEPTH) uniform sampler2D depthImage; // 0: no surface, infinitely far
+layout(set = 0, binding = FRAME_RECEIVER) uniform sampler2D receiverImage;
 
 // Where the pixel's ray meets the surface.
 vec3 positionAt(vec2 pixel, float depth) {

@@ -8,7 +8,7 @@ layout(constant_id = 1) const uint kFeatures = 0;
 
 layout(push_constant) uniform Draw { GpuDraw draw; };
 
-layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
+layout(set = 0, binding = FRAME_BLOCK) uniform FrameBlock { GpuFrame frame; };
 
 layout(set = 1, binding = 0) uniform MaterialBlock { GpuMaterial material; };
 layout(set = 1, binding = 1) uniform sampler2D textures0;

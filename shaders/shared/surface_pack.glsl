@@ -9,7 +9,7 @@ struct PackedSurface {
     vec3 toEye;           // unit
     vec3 baseColor;
     float metallic, roughness;
-    vec2 lightmapUv;
+    vec2 lightmapUv; // without a lightmap: the instance's number and 0
     vec3 albedo; // diffuse reflectance
     float nearReach; // m; within it, light of near surfaces replaces the field's. 0: nowhere
 };

@@ -12,10 +12,10 @@
 
 layout(constant_id = 0) const uint kView = VIEW_LIT;
 
-layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
-layout(set = 0, binding = 1, std430) readonly buffer Lights { GpuLight lights[]; };
-layout(set = 0, binding = 2, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
-layout(set = 0, binding = 3) uniform sampler2DArray shadowAtlas;
+layout(set = 0, binding = FRAME_BLOCK) uniform FrameBlock { GpuFrame frame; };
+layout(set = 0, binding = FRAME_LIGHTS, std430) readonly buffer Lights { GpuLight lights[]; };
+layout(set = 0, binding = FRAME_SHADOW_VIEWS, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
+layout(set = 0, binding = FRAME_SHADOW_ATLAS) uniform sampler2DArray shadowAtlas;
 
 layout(location = 0) out vec4 outColor;
 

@@ -17,15 +17,15 @@ layout(constant_id = 4) const int kChroma = 3; // bands of the field that are in
 layout(constant_id = 3) const bool kFirst = true; // first of the passes: it also writes pixels of other bands and the background
 layout(constant_id = 5) const bool kDiffuse = true; // shows diffuse light, not only what is glossy
 
-layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
-layout(set = 0, binding = 4) uniform sampler2DArray lightmap;
-layout(set = 0, binding = 5, std430) readonly buffer Grid { uvec2 grid[]; };
-layout(set = 0, binding = 8, std430) readonly buffer GridDepth { uint gridDepth[]; };
-layout(set = 0, binding = 9) uniform sampler2D emittedImage;
-layout(set = 0, binding = 11) uniform sampler2DArray reflectionTable;
-layout(set = 0, binding = 13, std430) readonly buffer MarchedPlanes { vec4 marchedPlanes[]; };
-layout(set = 0, binding = 14, std430) readonly buffer MarchedNearest { float marchedNearest[]; };
-layout(set = 0, binding = 15, std430) readonly buffer MarchedRadiance { float marchedRadiance[]; };
+layout(set = 0, binding = FRAME_BLOCK) uniform FrameBlock { GpuFrame frame; };
+layout(set = 1, binding = FIELD_LIGHTMAP) uniform sampler2DArray lightmap;
+layout(set = 1, binding = FIELD_GRID, std430) readonly buffer Grid { uvec2 grid[]; };
+layout(set = 1, binding = FIELD_GRID_WEIGHTS, std430) readonly buffer GridDepth { uint gridDepth[]; };
+layout(set = 0, binding = FRAME_EMITTED) uniform sampler2D emittedImage;
+layout(set = 0, binding = FRAME_REFLECTIONS) uniform sampler2DArray reflectionTable;
+layout(set = 1, binding = FIELD_MARCHED_PLANES, std430) readonly buffer MarchedPlanes { vec4 marchedPlanes[]; };
+layout(set = 1, binding = FIELD_MARCHED_NEAREST, std430) readonly buffer MarchedNearest { float marchedNearest[]; };
+layout(set = 1, binding = FIELD_MARCHED_RADIANCE, std430) readonly buffer MarchedRadiance { float marchedRadiance[]; };
 
 layout(location = 0) out vec4 outColor;
 

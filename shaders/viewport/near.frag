@@ -19,11 +19,11 @@ layout(constant_id = 3) const int kChroma = 3; // bands of the field that are in
 
 layout(push_constant) uniform Push { GpuNear near; };
 
-layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
-layout(set = 0, binding = 1, std430) readonly buffer Lights { GpuLight lights[]; };
-layout(set = 0, binding = 2, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
-layout(set = 0, binding = 3) uniform sampler2DArray shadowAtlas;
-layout(set = 0, binding = 4) uniform sampler2DArray lightmap;
+layout(set = 0, binding = FRAME_BLOCK) uniform FrameBlock { GpuFrame frame; };
+layout(set = 0, binding = FRAME_LIGHTS, std430) readonly buffer Lights { GpuLight lights[]; };
+layout(set = 0, binding = FRAME_SHADOW_VIEWS, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
+layout(set = 0, binding = FRAME_SHADOW_ATLAS) uniform sampler2DArray shadowAtlas;
+layout(set = 2, binding = 0) uniform sampler2DArray lightmap;
 
 layout(location = 0) out vec4 outColor;
 

@@ -6,8 +6,8 @@
 #include "shaders/shared/gpu_sky.h"
 
 layout(push_constant) uniform Push { GpuSky sky; };
-layout(set = 0, binding = 0) uniform FrameBlock { GpuFrame frame; };
-layout(set = 0, binding = 7) uniform sampler2D depthImage;
+layout(set = 0, binding = FRAME_BLOCK) uniform FrameBlock { GpuFrame frame; };
+layout(set = 0, binding = FRAME_DEPTH) uniform sampler2D depthImage;
 layout(set = 1, binding = 0) uniform sampler2D panorama;
 
 layout(location = 0) out vec4 outColor;

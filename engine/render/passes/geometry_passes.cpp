@@ -34,10 +34,10 @@ const std::vector<VkVertexInputAttributeDescription> kAttributes = {
     {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(VertexAttributes, color)},
     {6, 2, VK_FORMAT_R32G32_SFLOAT, 0}};
 
-// Binds what the variant reads of one instance.
+// Binds what the variant reads of one instance. `number`: its index, where surfaces are drawn.
 void bindInstance(VkCommandBuffer cmd, VkPipelineLayout layout, const GpuMesh& mesh,
                   const GpuInstance& instance, const glm::mat4& toClip, std::uint32_t flags,
-                  std::uint32_t bindings) {
+                  std::uint32_t bindings, std::uint32_t number = 0) {
     GpuDraw draw{};
     draw.toClip = toClip * instance.toWorld;
     const glm::mat4 rows = glm::transpose(instance.toWorld);
@@ -46,6 +46,7 @@ void bindInstance(VkCommandBuffer cmd, VkPipelineLayout layout, const GpuMesh& m
     draw.flags = flags;
     draw.backOffset = instance.backOffset;
     draw.nearReach = instance.nearReach;
+    draw.instance = number;
     vkCmdPushConstants(cmd, layout, VK_SHADER_STAGE_ALL, 0, sizeof draw, &draw);
     const std::array buffers = {mesh.positions.handle, mesh.attributes.handle,
                                 instance.lightmapUv ? instance.lightmapUv.handle
@@ -258,7 +259,7 @@ SurfacesDrawn GeometryPasses::drawSurfaces(VkCommandBuffer cmd, const RenderScen
         const std::uint32_t flags =
             (bothSides ? DRAW_DOUBLE_SIDED : 0u) | (instance.mirrored ? DRAW_MIRRORED : 0u);
         bindInstance(cmd, m_layout.handle, mesh, instance, view.toClip, flags,
-                     features & FEATURE_LIGHTMAP ? 3 : 2);
+                     features & FEATURE_LIGHTMAP ? 3 : 2, index);
         vkCmdDrawIndexed(cmd, mesh.indexCount, 1, 0, 0, 0);
     }
     return drawn;

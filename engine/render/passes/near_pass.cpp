@@ -17,7 +17,8 @@ namespace limn::render {
 using shared::GpuNear;
 
 NearPass::NearPass(gpu::Device& device, VkDescriptorSetLayout frameLayout)
-    : m_device(device), m_frameLayout(frameLayout), m_surfaces(device) {}
+    : m_device(device), m_frameLayout(frameLayout), m_surfaces(device),
+      m_lightmap(device, VK_FILTER_LINEAR) {}
 
 void NearPass::set(const Scene& scene, std::shared_ptr<const LightmapLayout> layout,
                    std::uint64_t version) {
@@ -36,7 +37,7 @@ bool NearPass::active(const ViewportOptions& options) const {
 
 VkPipeline NearPass::pipeline(const Variant& variant) {
     if (!m_layout) {
-        const std::array layouts = {m_frameLayout, m_surfaces.layout()};
+        const std::array layouts = {m_frameLayout, m_surfaces.layout(), m_lightmap.layout()};
         m_layout = gpu::createPipelineLayout(m_device, layouts, sizeof(GpuNear), "near light");
     }
     gpu::Pipeline& pipeline = m_pipelines[variant];
@@ -50,11 +51,12 @@ VkPipeline NearPass::pipeline(const Variant& variant) {
 }
 
 void NearPass::record(VkCommandBuffer cmd, VkDescriptorSet frameSet, const ViewportOptions& options,
-                      const GpuField& field, std::uint32_t sample) {
+                      const GpuField& field, std::uint32_t sample, std::uint32_t slot) {
     assert(active(options));
     const VkPipeline variant = pipeline(
         {options.view, std::min(field.bands, std::uint32_t(kIrradianceBands)), field.chroma});
-    const std::array sets = {frameSet, m_surfaces.set()};
+    const std::array sets = {frameSet, m_surfaces.set(),
+                             m_lightmap.with(field.lightmap.view, slot)};
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_layout.handle, 0, sets.size(),
                             sets.data(), 0, nullptr);
     const GpuNear push{.rays = options.nearRays, .first = sample * options.nearRays};

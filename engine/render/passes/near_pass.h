@@ -3,6 +3,7 @@
 
 #include "engine/gpu/pipeline.h"
 #include "engine/render/near/near_surfaces.h"
+#include "engine/render/surfaces/slot_texture.h"
 #include "engine/render/viewport.h"
 
 #include <compare>
@@ -28,10 +29,10 @@ public:
     bool active(const ViewportOptions& options) const;
 
     /// Records the pass over the whole bound linear image, for sample `sample` of each pixel.
-    /// `frameSet` holds the surface images, the lights with their shadow maps and the field.
-    /// Precondition: active().
+    /// `frameSet` holds the surface images and the lights with their shadow maps. No frame in
+    /// flight may use the slot. Precondition: active().
     void record(VkCommandBuffer cmd, VkDescriptorSet frameSet, const ViewportOptions& options,
-                const GpuField& field, std::uint32_t sample);
+                const GpuField& field, std::uint32_t sample, std::uint32_t slot);
 
 private:
     struct Variant {
@@ -45,6 +46,7 @@ private:
     gpu::Device& m_device;
     VkDescriptorSetLayout m_frameLayout;
     NearSurfaces m_surfaces;
+    SlotTexture m_lightmap;
     gpu::PipelineLayout m_layout; ///< made when first needed
     std::map<Variant, gpu::Pipeline> m_pipelines;
 };

@@ -8,17 +8,20 @@
 
 namespace limn::render {
 
-/// One descriptor set per frame slot with one unfiltered texture, for passes that read one image.
+/// One descriptor set per frame slot with one texture, for passes that read one image.
 class SlotTexture {
 public:
-    explicit SlotTexture(gpu::Device& device) : m_device(device) {
+    explicit SlotTexture(gpu::Device& device, VkFilter filter = VK_FILTER_NEAREST)
+        : m_device(device) {
         const std::array types = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
         m_layout = gpu::createSetLayout(device, types);
         m_pool = gpu::createDescriptorPool(device, kFrameSlots, types);
         for (VkDescriptorSet& set : m_sets)
             set = gpu::allocateSet(device, m_pool, m_layout);
-        m_sampler = gpu::createSampler(
-            device, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST});
+        m_sampler = gpu::createSampler(device, {.filter = filter,
+                                                .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST,
+                                                .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                                .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE});
     }
 
     VkDescriptorSetLayout layout() const { return m_layout.handle; }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/gpu/descriptors.h"
-#include "engine/render/gpu_field.h"
 #include "engine/render/surface_map.h"
 #include "engine/render/surfaces/surface_images.h"
 
@@ -19,13 +18,14 @@ public:
                 std::span<const VkDescriptorType> frameTypes);
 
     /// Draws the views and lets `read` record what reads them, as Viewport::drawSurfaceMaps().
-    /// `field` only fills bindings; `slot` is that of MaterialSet. Waits for the GPU.
+    /// `filler` is an image for bindings that nothing reads; `slot` is that of MaterialSet. Waits
+    /// for the GPU.
     void draw(GeometryPasses& geometry, const RenderScene& scene, const MaterialSet& materials,
-              const GpuField& field, std::uint32_t slot, std::span<const SurfaceMapView> views,
-              std::uint32_t size, const ReadSurfaceMap& read);
+              VkImageView filler, std::uint32_t slot, std::span<const SurfaceMapView> views,
+              glm::uvec2 size, const ReadSurfaceMap& read);
 
 private:
-    void writeSet(const GpuField& field);
+    void writeSet(VkImageView filler);
 
     gpu::Device& m_device;
     std::span<const VkDescriptorType> m_frameTypes;

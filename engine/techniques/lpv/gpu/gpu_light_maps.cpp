@@ -120,7 +120,8 @@ MappedLight GpuLightMaps::cast(const Light& light, const Bounds& bounds, std::ui
                              .scale = scale});
     }
     m_viewport.drawSurfaceMaps(
-        drawn, views[0].view.size, [&](VkCommandBuffer cmd, const SurfaceMap& map, std::size_t k) {
+        drawn, glm::uvec2(views[0].view.size),
+        [&](VkCommandBuffer cmd, const SurfaceMap& map, std::size_t k) {
             if (k == 0) {
                 writeRsmImages(m_device, m_set, map);
                 gpu::writeBuffer(m_device, m_set, LPV_MAP_SUMS, kBuffer, m_sums.handle);
