@@ -98,7 +98,7 @@ Result<void> GpuDrawing::relight(const Scene& scene, const RenderRequest& reques
             return done;
     if (!lighting) {
         const CpuLight light = request.relight(request.view == View::Lit);
-        viewport.setIndirect(light.field);
+        showLight(request.technique, *device, viewport, light.field);
         cpuField = &light.field;
         result.relightDevice = "cpu";
         result.relight = light.report;

@@ -131,7 +131,8 @@ void RenderWorker::takeField(const PictureRequest& request) {
     const bool gone = !request.technique && !request.field && (m_ownField || shown.field);
     if (!gone && !(request.field && (m_ownField || request.field != shown.field)))
         return;
-    viewport.setIndirect(request.field ? *request.field : IndirectField{});
+    showLight(request.technique, *device, viewport,
+              request.field ? *request.field : IndirectField{});
     m_ownField = false;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/scene/camera.h"
+#include "engine/scene/mesh/bounds.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -16,6 +19,10 @@ struct SurfaceMapView {
     /// right-handed system with the eye looking along -z.
     glm::mat4 toClip{1};
 };
+
+/// What a camera sees. Maps of this view have the pixels of a picture of `aspect`, width over
+/// height, whose size they have. `bounds`: of the scene.
+SurfaceMapView surfaceMapOf(const Camera& camera, float aspect, const Bounds& bounds);
 
 /// The surfaces that such a view sees, for compute shaders: images in SHADER_READ_ONLY_OPTIMAL. The
 /// handles belong to whoever returned this struct.

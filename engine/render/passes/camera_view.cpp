@@ -2,13 +2,14 @@
 #include "engine/render/passes/camera_view.h"
 
 #include "engine/render/position_error.h"
+#include "engine/render/surface_map.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/ext/matrix_transform.hpp>
 
-namespace limn::render {
+namespace limn {
 
 namespace {
 
@@ -17,22 +18,29 @@ struct DepthRange {
 };
 
 // Depth runs from 1 to 0 in floating point, so a near plane this close costs no precision.
-DepthRange depthRange(const ViewportOptions& options, const Bounds& bounds) {
-    const glm::vec3 reach = glm::max(glm::abs(bounds.lower - options.camera.eye),
-                                     glm::abs(bounds.upper - options.camera.eye));
+DepthRange depthRange(const Camera& camera, const Bounds& bounds) {
+    const glm::vec3 reach =
+        glm::max(glm::abs(bounds.lower - camera.eye), glm::abs(bounds.upper - camera.eye));
     const float zFar = std::max(glm::length(reach) * 1.01f, 1e-6f);
     return {zFar * 1e-5f, zFar};
 }
 
 } // namespace
 
+SurfaceMapView surfaceMapOf(const Camera& camera, float aspect, const Bounds& bounds) {
+    const DepthRange range = depthRange(camera, bounds);
+    return {projectionMatrix(camera, aspect, range.zFar, range.zNear) * viewMatrix(camera)};
+}
+
+} // namespace limn
+
+namespace limn::render {
+
 GeometryView geometryView(const ViewportOptions& options, const Bounds& bounds, bool grid) {
-    const DepthRange range = depthRange(options, bounds);
     const float aspect = float(options.width) / float(options.height);
     GeometryView view;
     view.view = options.view;
-    view.toClip = projectionMatrix(options.camera, aspect, range.zFar, range.zNear) *
-                  viewMatrix(options.camera);
+    view.toClip = surfaceMapOf(options.camera, aspect, bounds).toClip;
     view.eye = options.camera.eye;
     view.grid = grid;
     return view;
@@ -70,7 +78,7 @@ void describePixels(const ViewportOptions& options, const Bounds& bounds, glm::v
     frame.pixelSize = 1.f / size;
     frame.positionError = positionError(frame.rayRight, frame.rayUp, frame.pixelSize, subPixelBits);
     // Depth is (a + b / distance) with a, b of the projection's third row.
-    const DepthRange range = depthRange(options, bounds);
+    const DepthRange range = depthRange(options.camera, bounds);
     const glm::mat4 projection = projectionMatrix(options.camera, aspect, range.zFar, range.zNear);
     frame.depthOffset = projection[2][2];
     frame.depthScale = projection[3][2];

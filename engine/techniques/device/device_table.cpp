@@ -22,6 +22,8 @@ namespace {
 struct Row {
     const Technique* technique;
     Result<std::unique_ptr<Lighting>> (*light)(gpu::Device&, Viewport&, const Prepared&);
+    /// Uploads the parts of a field of the CPU; null where its light has none.
+    std::shared_ptr<LightPass> (*pass)(gpu::Device&, Viewport&, const IndirectField&) = nullptr;
 };
 
 constexpr std::array kRows = {
@@ -31,13 +33,21 @@ constexpr std::array kRows = {
 } // namespace
 
 bool lightsOnDevice(const Technique& technique) {
-    return std::ranges::find(kRows, &technique, &Row::technique) != kRows.end();
+    return std::ranges::any_of(
+        kRows, [&](const Row& row) { return row.technique == &technique && row.light; });
+}
+
+void showLight(const Technique* technique, gpu::Device& device, Viewport& viewport,
+               const IndirectField& field) {
+    const auto row = std::ranges::find(kRows, technique, &Row::technique);
+    const bool drawn = row != kRows.end() && row->pass && !field.parts.empty();
+    viewport.setIndirect(field, drawn ? row->pass(device, viewport, field) : nullptr);
 }
 
 Result<std::unique_ptr<Lighting>> lightOnDevice(const Technique& technique, gpu::Device& device,
                                                 Viewport& viewport, const Prepared& prepared) {
     for (const Row& row : kRows)
-        if (row.technique == &technique)
+        if (row.technique == &technique && row.light)
             return row.light(device, viewport, prepared);
     return fail(fmt::format("the technique \"{}\" lights on the CPU only", technique.name));
 }
