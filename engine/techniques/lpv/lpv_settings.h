@@ -23,10 +23,11 @@ inline constexpr std::array<TechniqueSetting, 5> kLpvSettings = {
                   .label = "Rounds of propagation",
                   .tooltip =
                       "In each round light moves on by one cell. With fewer rounds than half "
-                      "the cells along a side, it does not reach the far end of a room",
+                      "the cells along a side, it does not reach the far end of a room. 0: half "
+                      "the cells along the longest side",
                   .invalidates = Invalidates::Light},
-      .range = {1, 1024},
-      .usual = 16,
+      .range = {0, 1024},
+      .usual = 0,
       .whole = true},
      {.setting = {.key = "lpv.map_size",
                   .label = "Reflective shadow map (texels)",
@@ -67,8 +68,10 @@ struct LpvSettings {
 };
 
 inline LpvSettings lpvSettingsOf(const TechniqueChoice& choice) {
-    return {.resolution = std::uint32_t(settingOf(choice, kLpvSettings[0])),
-            .rounds = std::uint32_t(settingOf(choice, kLpvSettings[1])),
+    const auto resolution = std::uint32_t(settingOf(choice, kLpvSettings[0]));
+    const auto rounds = std::uint32_t(settingOf(choice, kLpvSettings[1]));
+    return {.resolution = resolution,
+            .rounds = rounds > 0 ? rounds : resolution / 2,
             .mapSize = std::uint32_t(settingOf(choice, kLpvSettings[2])),
             .fluxLookup = settingOf(choice, kLpvSettings[3]) > 0,
             .emitters = settingOf(choice, kLpvSettings[4]) > 0};

@@ -6,6 +6,7 @@
 #include "engine/field/sample_field.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/techniques/lpv/injected_lights.h"
+#include "engine/techniques/lpv/lpv_settings.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +64,7 @@ Scene room(float scale = 1) {
                        .color = glm::vec3(0.1f, 0.3f, 1),
                        .strength = 7,
                        .size = scale * glm::vec2(0.7f, 0.4f)}};
-    b.scene.technique.settings = {{"lpv.resolution", 16}, {"lpv.map_size", 32}};
+    b.scene.technique.settings = {{"lpv.resolution", 16}, {"lpv.map_size", 32}, {"lpv.rounds", 16}};
     return b.build();
 }
 
@@ -284,6 +285,15 @@ TEST(Lpv, CastsRaysOnlyForLightsWhoseMapChanged) {
     lit.scene.lights[0].name = "Renamed";
     lit.scene.materials[0].roughness = 0.3f;
     EXPECT_TRUE(lit.update().skipped) << "neither changes diffuse light";
+}
+
+// With 0 rounds to choose, they grow with the lattice, so that light crosses a room at any size.
+TEST(Lpv, RoundsAreHalfOfTheCellsUnlessTold) {
+    TechniqueChoice choice{.technique = "lpv", .settings = {{"lpv.resolution", 48}}};
+    EXPECT_EQ(lpvSettingsOf(choice).rounds, 24U);
+    choice.settings["lpv.rounds"] = 5;
+    EXPECT_EQ(lpvSettingsOf(choice).rounds, 5U);
+    EXPECT_EQ(lpvSettingsOf({}).rounds, 16U);
 }
 
 TEST(Lpv, IsFiniteForBlackHugeAndBuriedLightsAndWithoutAny) {

@@ -74,6 +74,7 @@ struct Relighter::State {
     bool updateSky(const Scene& scene);
     RoundChange lightSurfels();
     void writeField(const CacheFlags& which, bool grid);
+    std::uint64_t bytes() const;
 };
 
 Relighter::Relighter(std::shared_ptr<const Bake> bake, LitBands lit)
@@ -280,6 +281,21 @@ void Relighter::State::writeField(const CacheFlags& which, bool grid) {
     ++field.version;
 }
 
+/// What is kept between two calls, without the bake and what is as small as the materials.
+std::uint64_t Relighter::State::bytes() const {
+    const auto sizeOf = [](const auto&... arrays) {
+        return (0 + ... + (arrays.size() * sizeof(arrays[0])));
+    };
+    std::uint64_t sum =
+        sizeOf(halfs, everyLink, beforeSky, seenShare, albedo, emitted, indirect, radiosity, sh,
+               innerSh, field.lightmap, field.grid, read, current, missing, rest,
+               occluded.cones.links, occluded.cones.linkBegin, occluded.cones.linkExponent,
+               occluded.halfs, occlusion.places, direct.irradiance, direct.before);
+    for (const DirectIrradiance::PerLight& light : direct.lights)
+        sum += sizeOf(light.share);
+    return sum;
+}
+
 /// Applies the changes in `scene`. Returns true if there were any.
 bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, RelightStats& stats) {
     Stopwatch timer;
@@ -378,6 +394,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     stats.cachesUnseen = std::uint32_t(std::ranges::count(s.current, 0));
     stats.links = s.links.links;
     stats.linksSkipped = s.links.skipped;
+    stats.bytes = s.bytes();
     stats.totalMs = total.lap();
     return stats;
 }

@@ -43,6 +43,7 @@ struct RelightStats {
     std::uint32_t cachesUnseen = 0;   ///< lightmap caches for which the field keeps older light
     std::uint32_t cachesOccluded = 0; ///< caches that dynamic objects take light from
     std::uint64_t linksOccluded = 0;  ///< of those
+    std::uint64_t bytes = 0;          ///< that this relighter keeps beside the bake; 0: not known
     bool skipped = false; ///< no work was done: nothing had changed and bounces had converged
 };
 

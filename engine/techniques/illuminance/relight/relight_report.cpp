@@ -63,6 +63,11 @@ LightingReport reportOf(const RelightStats& r) {
         {"occlusion_ms", "Occlusion",
          "Time to find what dynamic objects occlude; 0 while they stand still", r.occlusionMs,
          CounterUnit::Milliseconds}};
+    if (r.bytes > 0)
+        report.counters.push_back({"light_bytes", "Memory of light",
+                                   "Beside the bake: radiosity of surfels and clusters, harmonics "
+                                   "of caches, direct light, and the field",
+                                   double(r.bytes), CounterUnit::Bytes});
     return report;
 }
 

@@ -35,7 +35,7 @@ Scene room(LightKind kind = LightKind::Point, float scale = 1) {
     light.strength = kind == LightKind::Point || kind == LightKind::Spot ? 6 * scale * scale : 6;
     light.size = scale * glm::vec2(0.7f, 0.4f);
     b.scene.lights = {light};
-    b.scene.technique.settings = {{"lpv.resolution", 16}, {"lpv.map_size", 32}};
+    b.scene.technique.settings = {{"lpv.resolution", 16}, {"lpv.map_size", 32}, {"lpv.rounds", 16}};
     return b.build();
 }
 
