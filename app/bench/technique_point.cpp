@@ -107,7 +107,7 @@ Result<Point> measurePoint(const MeasuredScene& m, const LeakRoom& room, const L
                                                       .trace = m.trace.get(),
                                                       .bounces = c.scene.relight.maxBounces,
                                                       .view = viewForAll(**lighting, view),
-                                                      .marched = true},
+                                                      .reflections = true},
                                                      {});
     FieldRenderOptions options;
     options.view = View::Irradiance;

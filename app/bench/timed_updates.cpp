@@ -56,7 +56,7 @@ UpdateTimes timeUpdates(Lighting& lighting, const Scene& scene, const TraceScene
                         .trace = &changedTrace,
                         .bounces = changed.relight.maxBounces,
                         .view = viewForAll(lighting, view),
-                        .marched = true});
+                        .reflections = true});
     };
     const auto medianOf = [&](const auto& change) {
         const double ms = median(runs, [&](int k) {
@@ -95,7 +95,7 @@ UpdateTimes timeUpdates(Lighting& lighting, const Scene& scene, const TraceScene
                             .trace = &trace,
                             .bounces = bounces,
                             .view = &from,
-                            .marched = true});
+                            .reflections = true});
         };
         look(view, changed.relight.maxBounces);
         return look(aside, 0);

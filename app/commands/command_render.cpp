@@ -82,7 +82,7 @@ Result<std::shared_ptr<const Precomputed>> obtainBake(const RenderCommand& optio
                       options.scene.import.memory);
 }
 
-CpuLight relight(const Scene& scene, Baked& baked, bool marched) {
+CpuLight relight(const Scene& scene, Baked& baked, bool reflections) {
     if (!baked.lighting) // an overlay of light has made it already
         baked.lighting = baked.technique->light(baked.prepared);
     LightingReport report = baked.lighting->update(
@@ -90,7 +90,7 @@ CpuLight relight(const Scene& scene, Baked& baked, bool marched) {
          .trace = baked.trace.get(),
          .bounces = scene.relight.maxBounces,
          .view = baked.lightAll ? viewForAll(*baked.lighting, baked.view) : &baked.view,
-         .marched = marched},
+         .reflections = reflections},
         progressOnStderr());
     endProgressLine();
     return {*baked.lighting->field(), std::move(report)};
@@ -223,7 +223,7 @@ RenderRequest requestOf(const RenderCommand& options, const Scene& scene, const 
     request.gatherRays = options.gatherRays;
     request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
     if (baked.light)
-        request.relight = [&](bool marched) { return relight(scene, baked, marched); };
+        request.relight = [&](bool reflections) { return relight(scene, baked, reflections); };
     request.emitted = [&] { return baked.lighting->emittedField(scene); };
     request.layout = baked.layout;
     request.technique = baked.technique;
@@ -265,9 +265,9 @@ Json reportJson(const RenderCommand& options, const RenderedImage& image,
     json["invalid_pixels"] = countInvalidPixels(image.linear);
     if (!image.relightDevice.empty())
         json["relight"] = lightingJson(image.relightDevice, image.relight);
-    if (image.marchedRays > 0) {
-        json["marched_rays"] = image.marchedRays;
-        json["unknown_rays"] = image.unknownRays;
+    if (image.reflections > 0) {
+        json["marched_rays"] = image.reflections;
+        json["unknown_rays"] = image.unknownReflections;
     }
     if (overlay)
         json["overlay"] = legendJson(overlay->legend);
@@ -280,9 +280,9 @@ void printReport(const std::string& path, const RenderCommand& options, const Re
     if (!image.relightDevice.empty())
         relit =
             fmt::format("relit on {} in {:.1f} ms, ", image.relightDevice, image.relight.totalMs);
-    if (image.marchedRays > 0)
-        relit += fmt::format("{} of {} marched reflections unknown, ", image.unknownRays,
-                             image.marchedRays);
+    if (image.reflections > 0)
+        relit += fmt::format("{} of {} marched reflections unknown, ", image.unknownReflections,
+                             image.reflections);
     fmt::print("{}: {}, {} x {} on {}, {}{} invalid pixels, {:.1f} s\n", path, options.view,
                image.linear.width, image.linear.height, image.device, relit,
                countInvalidPixels(image.linear), seconds);

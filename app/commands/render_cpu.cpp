@@ -40,14 +40,14 @@ RenderedImage renderOnCpu(const Scene& scene, const RenderRequest& request) {
         if (request.emitted && options.gatherRays > 0)
             options.emitted = request.emitted();
     }
-    MarchedCounts marched;
-    options.marched = &marched;
+    ReflectionCounts counts;
+    options.reflections = &counts;
     result.linear =
         renderField(TraceScene(scene), *field, request.layout ? *request.layout : noLayout, options,
                     progressOnStderr());
     endProgressLine();
-    result.marchedRays = marched.rays;
-    result.unknownRays = marched.unknown;
+    result.reflections = counts.all;
+    result.unknownReflections = counts.unknown;
     if (request.tonemapped)
         result.picture = toneMappedAs(request, result.linear);
     return result;

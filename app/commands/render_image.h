@@ -38,9 +38,9 @@ struct RenderRequest {
     Inspection inspection = Inspection::None;              ///< of RenderedImage::picture
     bool tonemapped = false;                               ///< RenderedImage::picture is wanted too
     std::shared_ptr<const LightmapLayout> layout;          ///< of the light; null: there is none
-    /// Computes the light on the CPU; `marched` as LightingInput::marched. Empty: no indirect
-    /// light.
-    std::function<CpuLight(bool marched)> relight;
+    /// Computes the light on the CPU; `reflections` as LightingInput::reflections. Empty: no
+    /// indirect light.
+    std::function<CpuLight(bool reflections)> relight;
     /// Lighting::emittedField() of the light that `relight` computed; empty: there is none.
     std::function<std::shared_ptr<const IndirectField>()> emitted;
     const Technique* technique = nullptr; ///< of the light, on either device; null: there is none
@@ -56,8 +56,8 @@ struct RenderedImage {
     std::string device;
     std::string relightDevice; ///< empty: there is no indirect light
     LightingReport relight;
-    std::uint64_t marchedRays = 0; ///< reflections that the CPU marched
-    std::uint64_t unknownRays = 0; ///< of them, those that no probe knows
+    std::uint64_t reflections = 0;        ///< as ReflectionCounts::all, on the CPU
+    std::uint64_t unknownReflections = 0; ///< as ReflectionCounts::unknown
 };
 
 /// The options with which renderField() draws the picture, without bounced light.

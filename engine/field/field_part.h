@@ -21,6 +21,13 @@ struct FieldTap {
 };
 using FieldTaps = std::vector<FieldTap>;
 
+/// The lobe that a glossy surface reflects.
+struct ReflectedLobe {
+    glm::vec3 origin{0}; ///< clear of the surface [m, world]
+    glm::vec3 axis{0};   ///< unit
+    float spread = 0;    ///< half of the lobe lies within this angle of the axis [rad]
+};
+
 /// A part of a field besides its lightmap and its grid, such as another grid or light kept on
 /// objects: numbers, and lookups that are linear in them. A technique defines its parts; pictures
 /// of the CPU and explanations read them through this. A part does not change after it was made.
@@ -43,6 +50,15 @@ public:
     /// Mean radiance in a lobe as of sampleLobe() [W m^-2 sr^-1].
     virtual void lobeTaps(const FieldPoint& point, glm::vec3 direction, int bands,
                           const std::array<float, kMaxBands>& factors, FieldTaps& taps) const = 0;
+
+    /// Whether glossy surfaces (engine/scene/surface/receiver_bands.h) reflect what
+    /// reflectionTaps() finds, in place of the lobes of the whole field. One part of a field may.
+    virtual bool reflects() const { return false; }
+    /// Mean radiance in the lobe [W m^-2 sr^-1]. Returns false where the part does not know what is
+    /// there, and the taps are a guess.
+    virtual bool reflectionTaps(const ReflectedLobe& /*lobe*/, FieldTaps& /*taps*/) const {
+        return false;
+    }
 
     /// The sum of the numbers times their weights.
     virtual glm::vec3 sum(std::span<const FieldTap> taps) const = 0;

@@ -46,6 +46,18 @@ static void addBands(const FieldPoint& point, glm::vec3 direction, int bands,
     addSum(point, {basis, std::size_t(bands * bands)}, weight, reading);
 }
 
+/// Adds the numbers of a part.
+static void addTapsOf(std::uint32_t part, const FieldTaps& taps, glm::vec3 weight,
+                      FieldReading& reading) {
+    for (const FieldTap& tap : taps) {
+        const std::uint64_t key = std::uint64_t(part) << 32 | tap.index;
+        const auto [place, added] = reading.partPlaces.try_emplace(key, reading.partNumbers.size());
+        if (added)
+            reading.partNumbers.push_back({part, tap.index});
+        reading.partNumbers[place->second].weight += weight * tap.weight;
+    }
+}
+
 /// Adds what the field's other parts contribute.
 template <class AddTaps>
 static void readParts(const FieldPoint& point, glm::vec3 weight, FieldReading& reading,
@@ -54,14 +66,7 @@ static void readParts(const FieldPoint& point, glm::vec3 weight, FieldReading& r
     for (std::uint32_t k = 0; k < point.field.parts.size(); ++k) {
         taps.clear();
         addTaps(*point.field.parts[k], taps);
-        for (const FieldTap& tap : taps) {
-            const std::uint64_t key = std::uint64_t(k) << 32 | tap.index;
-            const auto [place, added] =
-                reading.partPlaces.try_emplace(key, reading.partNumbers.size());
-            if (added)
-                reading.partNumbers.push_back({k, tap.index});
-            reading.partNumbers[place->second].weight += weight * tap.weight;
-        }
+        addTapsOf(k, taps, weight, reading);
     }
 }
 
@@ -94,6 +99,15 @@ void addLobe(const FieldPoint& point, glm::vec3 direction, int bands,
     });
 }
 
+void addReflection(const IndirectField& field, const ReflectedLobe& lobe, glm::vec3 weight,
+                   FieldReading& reading) {
+    const auto reflecting =
+        std::ranges::find_if(field.parts, [](const auto& part) { return part->reflects(); });
+    FieldTaps taps;
+    (*reflecting)->reflectionTaps(lobe, taps);
+    addTapsOf(std::uint32_t(reflecting - field.parts.begin()), taps, weight, reading);
+}
+
 glm::vec3 valueOf(const FieldReading& reading, const IndirectField& field) {
     glm::dvec3 value(0);
     for (const FieldReading::Entry& entry : reading.entries) {
@@ -106,8 +120,6 @@ glm::vec3 valueOf(const FieldReading& reading, const IndirectField& field) {
         const FieldTap one{number.index, 1};
         value += glm::dvec3(number.weight * field.parts[number.part]->sum({&one, 1}));
     }
-    for (const FieldReading::Marched& m : reading.marched)
-        value += glm::dvec3(m.weight * marchedRadiance(*field.marched, m.lookup));
     return glm::vec3(value);
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/field/indirect_field.h"
-#include "engine/field/march_ray.h"
 #include "engine/field/sample_field.h"
 #include "engine/math/sh.h"
 
@@ -15,8 +14,8 @@
 namespace limn {
 
 /// A value that is linear in a field's light, such as the bounced light of a pixel: for each colour
-/// the sum, over entries and coefficients, of weight times coefficient, that of marched radiance,
-/// and that of the numbers of the field's other parts.
+/// the sum, over entries and coefficients, of weight times coefficient, and that of the numbers of
+/// the field's other parts.
 struct FieldReading {
     struct Entry {
         bool grid = false;       ///< a cell of the grid, else a texel of the lightmap
@@ -26,13 +25,6 @@ struct FieldReading {
     };
     std::vector<Entry> entries;                            ///< each cell and texel at most once
     std::unordered_map<std::uint64_t, std::size_t> places; ///< of entries, by index and `grid`
-
-    /// Weight of the radiance that a marched reflection looks up.
-    struct Marched {
-        MarchedLookup lookup;
-        glm::vec3 weight{0};
-    };
-    std::vector<Marched> marched;
 
     /// Weights of the numbers that the field's other parts store, each number at most once.
     struct PartNumber {
@@ -58,6 +50,10 @@ void addRadiance(const FieldPoint& point, glm::vec3 direction, glm::vec3 weight,
 /// Adds weight * sampleLobe(point, direction, bands, factors), with the same exception.
 void addLobe(const FieldPoint& point, glm::vec3 direction, int bands,
              const std::array<float, kMaxBands>& factors, glm::vec3 weight, FieldReading& reading);
+
+/// Adds weight * sampleReflection(field, lobe) to the reading. Precondition: reflectingPart(field).
+void addReflection(const IndirectField& field, const ReflectedLobe& lobe, glm::vec3 weight,
+                   FieldReading& reading);
 
 /// The reading's value in `field`, which has the sizes of those it was made from.
 glm::vec3 valueOf(const FieldReading& reading, const IndirectField& field);

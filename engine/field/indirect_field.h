@@ -3,7 +3,6 @@
 
 #include "engine/field/field_part.h"
 #include "engine/field/grid_moments.h"
-#include "engine/field/marched_maps.h"
 #include "engine/scene/scene.h"
 
 #include <cstddef>
@@ -44,9 +43,6 @@ struct IndirectField {
     std::shared_ptr<const std::vector<std::uint16_t>> gridDepth;
     /// Moments of the cells' distances, which weight them in its place; null: not used.
     std::shared_ptr<const GridMoments> gridMoments;
-    /// Maps of the grid's cells through which the reflections of glossy receivers are marched, on
-    /// the CPU and by the viewport; null: these reflect the harmonics, as all other surfaces do.
-    std::shared_ptr<const MarchedMaps> marched;
     /// What a technique adds to the light of lightmap and grid.
     std::vector<std::shared_ptr<const FieldPart>> parts;
     std::uint64_t version = 0; ///< incremented with every change of the values above

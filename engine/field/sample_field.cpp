@@ -105,10 +105,9 @@ bool IndirectField::operator==(const IndirectField& o) const {
     const bool sameParts = std::ranges::equal(
         parts, o.parts, [](const auto& a, const auto& b) { return a->equals(*b); });
     return sameDepth && sameParts && continues == o.continues && gridMoments == o.gridMoments &&
-           marched == o.marched && bands == o.bands && chroma() == o.chroma() &&
-           lightmapWidth == o.lightmapWidth && lightmapHeight == o.lightmapHeight &&
-           lightmap == o.lightmap && gridSize == o.gridSize && gridBounds == o.gridBounds &&
-           grid == o.grid && version == o.version;
+           bands == o.bands && chroma() == o.chroma() && lightmapWidth == o.lightmapWidth &&
+           lightmapHeight == o.lightmapHeight && lightmap == o.lightmap && gridSize == o.gridSize &&
+           gridBounds == o.gridBounds && grid == o.grid && version == o.version;
 }
 
 FieldLookup lookUp(const FieldPoint& point) {
@@ -159,6 +158,19 @@ glm::vec3 sampleLobe(const FieldPoint& point, glm::vec3 direction, int bands,
         part.lobeTaps(point, direction, bands, factors, taps);
     });
     return glm::max(radiance, glm::vec3(0));
+}
+
+const FieldPart* reflectingPart(const IndirectField& field) {
+    for (const auto& part : field.parts)
+        if (part->reflects())
+            return part.get();
+    return nullptr;
+}
+
+SampledReflection sampleReflection(const FieldPart& part, const ReflectedLobe& lobe) {
+    FieldTaps taps;
+    const bool known = part.reflectionTaps(lobe, taps);
+    return {part.sum(taps), known};
 }
 
 } // namespace limn

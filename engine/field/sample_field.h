@@ -51,4 +51,14 @@ glm::vec3 sampleRadiance(const FieldPoint& point, glm::vec3 direction);
 glm::vec3 sampleLobe(const FieldPoint& point, glm::vec3 direction, int bands,
                      const std::array<float, kMaxBands>& factors);
 
+/// The part of a field that FieldPart::reflects(); null: glossy surfaces reflect its harmonics.
+const FieldPart* reflectingPart(const IndirectField& field);
+
+/// A reflection of that part.
+struct SampledReflection {
+    glm::vec3 radiance{0}; ///< mean in the lobe [W m^-2 sr^-1]
+    bool known = false;    ///< as FieldPart::reflectionTaps() returns
+};
+SampledReflection sampleReflection(const FieldPart& part, const ReflectedLobe& lobe);
+
 } // namespace limn

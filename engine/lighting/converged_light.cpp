@@ -26,7 +26,7 @@ Result<ConvergedLight> convergeLight(std::shared_ptr<const Scene> scene,
                                        .bounces = lit.scene->relight.maxBounces,
                                        .view = view ? viewForAll(*lit.lighting, *view) : nullptr,
                                        .unread = true,
-                                       .marched = reader == LitFor::Pictures},
+                                       .reflections = reader == LitFor::Pictures},
                                       progress);
     if (progress.cancelled())
         return fail("cancelled");

@@ -24,7 +24,7 @@ struct ConvergedLight {
 
 /// Who reads converged light.
 enum class LitFor : std::uint8_t {
-    Pictures, ///< what renderField() draws: with marched reflections
+    Pictures, ///< what renderField() draws: with reflections
     Export    ///< a field of harmonics
 };
 

@@ -26,9 +26,10 @@ struct LightingInput {
     const Viewpoint* view = nullptr;
     /// Light also what nothing in the scene looks up, such as a grid without dynamic objects.
     bool unread = false;
-    /// Also provide IndirectField::marched, if the technique has it and the scene has a glossy
-    /// receiver: for pictures of renderField() or the viewport. A device decides by itself.
-    bool marched = false;
+    /// Also provide the part of the field that FieldPart::reflects(), if the technique has one and
+    /// the scene has a glossy receiver: for pictures of renderField() or the viewport. A device
+    /// decides by itself.
+    bool reflections = false;
 };
 
 /// Bounced light of a scene by one technique on one device. Not thread-safe.

@@ -41,22 +41,20 @@ FieldLobe fieldLobe(const FieldPoint& point, const GlossyPoint& g, int bands, bo
     return found;
 }
 
-std::vector<bool> marchedReflections(const Scene& scene) {
-    std::vector<bool> marched;
+std::vector<bool> glossyReceivers(const Scene& scene) {
+    std::vector<bool> glossy;
     for (const Material& m : scene.materials)
-        marched.push_back(receiverBands(*scene.assets, m, kMaxBands) > kIrradianceBands);
-    return marched;
+        glossy.push_back(receiverBands(*scene.assets, m, kMaxBands) > kIrradianceBands);
+    return glossy;
 }
 
-MarchedReflection marchReflection(const MarchedMaps& maps, const TraceScene& trace,
-                                  const GlossyPoint& g) {
+FieldReflection fieldReflection(const TraceScene& trace, const GlossyPoint& g) {
     const ReflectionLobe lobe = lobeOf(g);
-    const glm::vec3 axis = axisOf(lobe, g), origin = rayOrigin(trace, g.surface);
-    const MarchedRay ray = marchRay(maps, origin, axis);
     // Half of the microfacets seen along the normal are tilted by less than atan(alpha).
     const float alpha = g.gloss.roughness * g.gloss.roughness;
-    return {.end = ray.end,
-            .lookup = lookUp(maps, ray, origin, axis, 2 * std::atan(alpha)),
+    return {.lobe = {.origin = rayOrigin(trace, g.surface),
+                     .axis = axisOf(lobe, g),
+                     .spread = 2 * std::atan(alpha)},
             .weight = g.gloss.F0 * lobe.share.x + lobe.share.y};
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/field/march_ray.h"
 #include "engine/field/sample_field.h"
 #include "engine/shading/surface_point.h"
 
@@ -28,19 +27,16 @@ struct FieldLobe {
 /// lobe's bands fade out, so that it hardly rings; else they are cut off.
 FieldLobe fieldLobe(const FieldPoint& point, const GlossyPoint& g, int bands, bool windowed);
 
-/// Whether reflections of each material of the scene are marched where a field has maps for that:
-/// those of glossy receivers (engine/scene/surface/receiver_bands.h).
-std::vector<bool> marchedReflections(const Scene& scene);
+/// Whether each material of the scene is that of a glossy receiver
+/// (engine/scene/surface/receiver_bands.h), which reflects what FieldPart::reflectionTaps() finds.
+std::vector<bool> glossyReceivers(const Scene& scene);
 
-/// The radiance that a ray marched along the axis of the lobe meets: its specular reflection is
-/// weight times marchedRadiance(lookup).
-struct MarchedReflection {
-    MarchEnd end = MarchEnd::Unknown;
-    MarchedLookup lookup;
+/// What such a receiver reflects: weight times the mean radiance in the lobe.
+struct FieldReflection {
+    ReflectedLobe lobe;
     glm::vec3 weight{0};
 };
-MarchedReflection marchReflection(const MarchedMaps& maps, const TraceScene& trace,
-                                  const GlossyPoint& g);
+FieldReflection fieldReflection(const TraceScene& trace, const GlossyPoint& g);
 
 /// Number of bands of `field` that each material of the scene reflects.
 std::vector<int> reflectedBands(const Scene& scene, const IndirectField& field);

@@ -50,7 +50,7 @@ ImageF renderField(const TraceScene& trace, const IndirectField& field,
     const auto colorOf = [&](const PixelSample& sample) {
         if (!shown)
             return surfaceColor(trace, options.view, sample.ray);
-        ValueSink value{trace, options.marched};
+        ValueSink value{trace, options.reflections};
         walkPixel(walk, sample, value);
         return value.sum;
     };

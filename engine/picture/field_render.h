@@ -13,9 +13,10 @@
 
 namespace limn {
 
-/// Numbers of reflections that were marched, and of those that no probe knows.
-struct MarchedCounts {
-    std::atomic<std::uint64_t> rays = 0, unknown = 0;
+/// Numbers of reflections that a part of the field was asked for (FieldPart::reflects()), and of
+/// those that it does not know.
+struct ReflectionCounts {
+    std::atomic<std::uint64_t> all = 0, unknown = 0;
 };
 
 struct FieldRenderOptions {
@@ -33,7 +34,7 @@ struct FieldRenderOptions {
     /// better than the field's light (final_gather.h); null or 0: light is the field's.
     std::shared_ptr<const IndirectField> emitted;
     std::uint32_t gatherRays = 0;
-    MarchedCounts* marched = nullptr; ///< counts are added to it; null: nothing is counted
+    ReflectionCounts* reflections = nullptr; ///< counts are added to it; null: nothing is counted
     // Only benchmarks and tests change the following two.
     bool windowedLobes = true; ///< else lobes are cut off after the field's bands, and ring
     bool allBands = false;     ///< reflections use all of the field's bands, needed or not
@@ -42,8 +43,8 @@ struct FieldRenderOptions {
 /// Renders on the CPU what real-time lighting shows: direct light with ray-traced shadows, and
 /// bounced light from `field`. Surfaces, normals and sides are those of renderReference(), so that
 /// the two differ by the field's error only. View::Normals is n / 2 + 1/2. Without a field (no
-/// lightmap, no grid) there is no indirect light. Glossy receivers show marched reflections where
-/// the field has maps for that. `layout` belongs to the field. The result is identical for any
+/// lightmap, no grid) there is no indirect light. Glossy receivers reflect what a part of the
+/// field that reflects() finds. `layout` belongs to the field. The result is identical for any
 /// number of threads; empty when cancelled.
 ImageF renderField(const TraceScene& trace, const IndirectField& field,
                    const LightmapLayout& layout, const FieldRenderOptions& options,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/field/march_ray.h"
 #include "engine/field/sample_field.h"
 #include "engine/picture/emitted_light.h"
 #include "engine/picture/field_lobe.h"
 #include "engine/picture/gather_tile.h"
 #include "engine/shading/direct_light.h"
+#include "engine/techniques/probes/march_ray.h"
 
 #include <concepts>
 #include <cstdint>
@@ -45,8 +45,8 @@ concept LightSink = requires(Sink& sink, const FieldPoint& point, glm::vec3 weig
 template <class Sink>
 concept PixelSink = LightSink<Sink> &&
     requires(Sink& sink, const SurfacePoint& surface, const FieldPoint& point,
-             const LightNumbers& numbers, const FieldLobe& lobe, const MarchedMaps& maps,
-             const MarchedReflection& reflection, glm::vec3 light, std::uint32_t instance,
+             const LightNumbers& numbers, const FieldLobe& lobe, const FieldPart& part,
+             const FieldReflection& reflection, glm::vec3 light, std::uint32_t instance,
              void (*body)()) {
     /// A pixel shows a surface of this instance.
     sink.meets(instance);
@@ -61,9 +61,9 @@ concept PixelSink = LightSink<Sink> &&
     sink.nearDirectLight(surface, numbers, instance);
     /// Weight times the field's radiance at a point, from a direction.
     sink.fieldRadiance(point, light, light);
-    /// Specular reflection of the field, and of what is found by marching.
+    /// Specular reflection of the field's harmonics, and of its part that reflects().
     sink.fieldLobe(point, lobe);
-    sink.marched(maps, reflection);
+    sink.fieldReflection(part, reflection);
 };
 
 /// What FinalGather::walk() needs of a sink. `via`: the instance that a ray from the pixel met

@@ -12,14 +12,15 @@ PixelWalk pixelWalk(const TraceScene& trace, const IndirectField& field,
                    .sum = sum,
                    .windowedLobes = options.windowedLobes,
                    .bands = {},
-                   .marches = {},
+                   .reflecting = reflectingPart(field),
+                   .glossy = {},
                    .near = nearLight(trace, field, layout, gathers ? 0 : options.nearRays),
                    .gathers = gathers};
     walk.bands = options.allBands
                      ? std::vector<int>(trace.scene().materials.size(), int(field.bands))
                      : reflectedBands(trace.scene(), field);
-    if (field.marched)
-        walk.marches = marchedReflections(trace.scene());
+    if (walk.reflecting)
+        walk.glossy = glossyReceivers(trace.scene());
     return walk;
 }
 

@@ -33,8 +33,9 @@ struct PixelWalk {
     const LightmapLayout& layout;
     PixelSum sum = PixelSum::Radiance;
     bool windowedLobes = true;
-    std::vector<int> bands;    ///< number that each material reflects
-    std::vector<bool> marches; ///< whether its reflections are marched
+    std::vector<int> bands;                ///< number that each material reflects
+    const FieldPart* reflecting = nullptr; ///< of the field, for glossy receivers
+    std::vector<bool> glossy;              ///< where there is one: the materials of these
     NearLight near;
     bool gathers = false; ///< the field's diffuse light is left to FinalGather
 
@@ -62,8 +63,8 @@ void walkReflection(const PixelWalk& w, const Hit& hit, const GlossyPoint& g, Si
     if (w.field.empty())
         return;
     const std::uint32_t material = w.trace.scene().instances[hit.instance].material;
-    if (w.field.marched && w.marches[material]) {
-        sink.marched(*w.field.marched, marchReflection(*w.field.marched, w.trace, g));
+    if (w.reflecting && w.glossy[material]) {
+        sink.fieldReflection(*w.reflecting, fieldReflection(w.trace, g));
         return;
     }
     const FieldPoint point = w.lookup(hit, g.surface);

@@ -44,8 +44,8 @@ void ReadingSink::fieldLobe(const FieldPoint& point, const FieldLobe& lobe) {
     addLobe(point, lobe.axis, lobe.bands, lobe.factors, m_factor * lobe.weight, readingOf(point));
 }
 
-void ReadingSink::marched(const MarchedMaps& /*maps*/, const MarchedReflection& reflection) {
-    parts.reading.marched.push_back({reflection.lookup, m_factor * reflection.weight});
+void ReadingSink::fieldReflection(const FieldPart& /*part*/, const FieldReflection& reflection) {
+    addReflection(m_lit.field(), reflection.lobe, m_factor * reflection.weight, parts.reading);
 }
 
 void ReadingSink::gatheredDirectLight(const SurfacePoint& p, const LightNumbers& numbers,

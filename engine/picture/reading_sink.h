@@ -67,7 +67,7 @@ public:
     void fieldIrradiance(const FieldPoint& point, glm::vec3 weight, GatherPart part);
     void fieldRadiance(const FieldPoint& point, glm::vec3 direction, glm::vec3 weight);
     void fieldLobe(const FieldPoint& point, const FieldLobe& lobe);
-    void marched(const MarchedMaps& maps, const MarchedReflection& reflection);
+    void fieldReflection(const FieldPart& part, const FieldReflection& reflection);
 
     // Only guides learn from single rays.
     static void rayBegins(const EmittedLightSample& /*ray*/) {}

@@ -12,7 +12,7 @@ namespace limn {
 /// one.
 struct ValueSink {
     const TraceScene& trace;
-    MarchedCounts* counts = nullptr; ///< counts are added to it; null: nothing is counted
+    ReflectionCounts* counts = nullptr; ///< counts are added to it; null: nothing is counted
     glm::vec3 sum{0};
 
     static constexpr bool reflects(std::uint32_t /*instance*/) { return true; }
@@ -48,12 +48,13 @@ struct ValueSink {
     void fieldLobe(const FieldPoint& point, const FieldLobe& lobe) {
         sum += lobe.weight * sampleLobe(point, lobe.axis, lobe.bands, lobe.factors);
     }
-    void marched(const MarchedMaps& maps, const MarchedReflection& reflection) {
+    void fieldReflection(const FieldPart& part, const FieldReflection& reflection) {
+        const SampledReflection sampled = sampleReflection(part, reflection.lobe);
         if (counts) {
-            ++counts->rays;
-            counts->unknown += reflection.end == MarchEnd::Unknown ? 1 : 0;
+            ++counts->all;
+            counts->unknown += sampled.known ? 0 : 1;
         }
-        sum += reflection.weight * marchedRadiance(maps, reflection.lookup);
+        sum += reflection.weight * sampled.radiance;
     }
 };
 

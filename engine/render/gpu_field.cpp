@@ -53,7 +53,6 @@ std::shared_ptr<GpuField> createWrittenField(gpu::Device& device, const WrittenF
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                     .name = "grid cells"}};
     field->gridDepth = desc.gridDepth;
-    field->marched = desc.marched;
     field->continues = desc.continues;
     gpu::clearBuffers(device, {field->grid.handle});
     clear(device, field->lightmap);

@@ -4,7 +4,6 @@
 #include "engine/field/indirect_field.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/image.h"
-#include "engine/render/gpu_marched_maps.h"
 #include "engine/scene/scene.h"
 #include "shaders/shared/grid_lookup.h"
 
@@ -21,8 +20,6 @@ struct GpuField {
     /// Same contents as IndirectField::gridDepth or gridMoments; null if the cells see everything.
     std::shared_ptr<const gpu::Buffer> gridDepth;
     std::uint32_t gridWeights = GRID_DEPTHS; ///< what gridDepth holds, of grid_lookup.h
-    /// Of the grid's cells; null: glossy surfaces reflect the harmonics, as all others do.
-    std::shared_ptr<const GpuMarchedMaps> marched;
 
     std::uint32_t bands = 3, chroma = 3;
     glm::uvec3 gridSize{0}; ///< cells; 0: no grid
@@ -44,9 +41,8 @@ struct WrittenFieldDesc {
     std::uint32_t bands = 3, chroma = 3;
     glm::uvec3 gridSize{0}; ///< cells; 0: no grid
     Bounds gridBounds;
-    std::shared_ptr<const gpu::Buffer> gridDepth;  ///< as GpuField::gridDepth
-    std::shared_ptr<const GpuMarchedMaps> marched; ///< as GpuField::marched
-    bool continues = false;                        ///< as IndirectField::continues
+    std::shared_ptr<const gpu::Buffer> gridDepth; ///< as GpuField::gridDepth
+    bool continues = false;                       ///< as IndirectField::continues
 };
 
 /// Creates a black field whose lightmap is a storage image and whose grid is a storage buffer.

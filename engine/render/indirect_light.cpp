@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
 #include <vector>
 
 #include <fmt/format.h>
@@ -36,26 +35,6 @@ static std::span<const std::byte> cellMapsOf(const IndirectField& field) {
         return std::as_bytes(std::span(field.gridMoments->texels));
     return field.gridDepth ? std::as_bytes(std::span(*field.gridDepth))
                            : std::span<const std::byte>();
-}
-
-// Maps for marched reflections; null if the field has none or the device cannot bind them.
-static std::shared_ptr<const GpuMarchedMaps> uploadMarched(gpu::Device& device,
-                                                           const IndirectField& field) {
-    if (!field.marched)
-        return nullptr;
-    const MarchedMaps& maps = *field.marched;
-    auto out = createMarchedMaps(device, std::uint32_t(maps.probes()), maps.side);
-    if (!out) {
-        logWarning(fmt::format("maps of {} MiB are larger than this device can bind: glossy "
-                               "surfaces reflect the harmonics",
-                               maps.bytes() >> 20));
-        return nullptr;
-    }
-    std::vector<std::uint32_t> all(maps.probes());
-    std::iota(all.begin(), all.end(), 0U);
-    uploadMarchedPlanes(device, maps, all, *out);
-    uploadMarchedRadiance(device, maps, *out);
-    return out;
 }
 
 // Creates a new field, because a frame in flight may still sample the old one.
@@ -92,8 +71,6 @@ static std::shared_ptr<const GpuField> uploadField(gpu::Device& device, const In
     if (field.gridMoments)
         out->gridWeights = field.gridMoments->smooth ? GRID_SMOOTH_MOMENTS : GRID_MOMENTS;
     uploader.flush(); // before other work is submitted
-    if (any)
-        out->marched = uploadMarched(device, field);
     return out;
 }
 
@@ -120,7 +97,6 @@ gpu::Image uploadReflectionTable(gpu::Device& device) {
 
 void describeField(const GpuField& field, GeometryView& view) {
     view.bands = field.bands;
-    view.marched = field.marched != nullptr;
 }
 
 void describeField(const GpuField& field, shared::GpuFrame& frame) {
@@ -135,7 +111,6 @@ void describeField(const GpuField& field, shared::GpuFrame& frame) {
     frame.gridReach = gridReach(field.gridBounds, field.gridSize);
     frame.gridWeights = field.gridDepth ? field.gridWeights : GRID_PLAIN;
     frame.gridCells = field.gridSize.x * field.gridSize.y * field.gridSize.z;
-    frame.marchedSide = field.marched ? field.marched->side : 0;
 }
 
 } // namespace limn::render

@@ -35,6 +35,10 @@ public:
     /// work that was submitted before.
     virtual void record(const LightPassFrame& frame) = 0;
 
+    /// Whether the pass draws what glossy surfaces (engine/scene/surface/receiver_bands.h) reflect,
+    /// in place of the lobes of the field's harmonics.
+    virtual bool reflects() const { return false; }
+
     /// Device memory that the pass reads [bytes].
     virtual std::uint64_t bytes() const = 0;
 };

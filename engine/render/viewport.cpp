@@ -51,7 +51,7 @@ constexpr std::array<VkDescriptorType, FRAME_BINDINGS> kFrameTypes = {
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
-// The field or a technique's own pass binds up to five beside them.
+// A technique's own pass binds up to five beside them.
 static_assert(std::ranges::count(kFrameTypes, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) + 5 ==
               gpu::kStorageBuffers);
 
@@ -406,7 +406,7 @@ void Viewport::setLighting(const Scene& scene) {
 void Viewport::setIndirect(const IndirectField& field, std::shared_ptr<LightPass> parts) {
     const auto start = Clock::now();
     for (const auto& part : field.parts)
-        if (!parts)
+        if (!parts && !part->reflects())
             logWarning(fmt::format("the light of a {} is missing in pictures of this device",
                                    part->name()));
     m_impl->indirect = uploadIndirectLight(m_impl->device, field, m_impl->indirect);
@@ -414,9 +414,10 @@ void Viewport::setIndirect(const IndirectField& field, std::shared_ptr<LightPass
     m_impl->pendingUploadMs += msSince(start);
 }
 
-void Viewport::setIndirect(std::shared_ptr<const GpuField> field) {
+void Viewport::setIndirect(std::shared_ptr<const GpuField> field,
+                           std::shared_ptr<LightPass> parts) {
     m_impl->indirect = {.field = std::move(field)};
-    m_impl->lightPass = nullptr;
+    m_impl->lightPass = std::move(parts);
 }
 
 void Viewport::setIndirect(std::shared_ptr<LightPass> pass) {
@@ -451,6 +452,7 @@ void Viewport::Impl::draw(const ViewportOptions& options) {
     const bool lit = nearPass.prepare(options) || showsDirectLight(options.view);
     GeometryView view = geometryView(options, scene.bounds, indirect.field->hasGrid());
     describeField(*indirect.field, view);
+    view.reflectedApart = lightPass && lightPass->reflects();
     std::vector<ShadowSlot> shadowSlots(lights.size());
     if (lit) {
         const ShadowCamera camera = shadowCamera(options, view, scene, nearestSeen);

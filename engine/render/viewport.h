@@ -77,11 +77,14 @@ public:
     void setLighting(const Scene& scene);
 
     /// Uploads indirect light. The version is ignored, because fields of two bakes may share one.
-    /// `parts` draws what the field's parts hold; null: that is missing in pictures.
+    /// `parts` draws what the field's parts hold; null: that is missing in pictures, in which
+    /// glossy surfaces then reflect the harmonics.
     void setIndirect(const IndirectField& field, std::shared_ptr<LightPass> parts = nullptr);
     /// Uses indirect light that was computed on the viewport's device; must not be null. Nothing is
-    /// uploaded; whatever the owner writes later appears in subsequent frames.
-    void setIndirect(std::shared_ptr<const GpuField> field);
+    /// uploaded; whatever the owner writes later appears in subsequent frames. `parts`: what is
+    /// added to it; null: nothing.
+    void setIndirect(std::shared_ptr<const GpuField> field,
+                     std::shared_ptr<LightPass> parts = nullptr);
     /// Uses indirect light of a technique's own kind; must not be null. It replaces all other.
     void setIndirect(std::shared_ptr<LightPass> pass);
 

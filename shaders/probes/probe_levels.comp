@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes a level of the probes' radiance, a texel per lane, from the finer one: updateLevels() of
-// engine/field/marched_maps.h.
+// engine/techniques/probes/marched_maps.h.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/compute_groups.glsl"

@@ -35,10 +35,7 @@ using uint = std::uint32_t;
 #define FIELD_LIGHTMAP 0u
 #define FIELD_GRID 1u
 #define FIELD_GRID_WEIGHTS 2u
-#define FIELD_MARCHED_PLANES 3u
-#define FIELD_MARCHED_NEAREST 4u
-#define FIELD_MARCHED_RADIANCE 5u
-#define FIELD_BINDINGS 6u
+#define FIELD_BINDINGS 3u
 
 // clang-format off
 /// Data that all draws of a frame share.
@@ -52,7 +49,7 @@ struct GpuFrame {
     vec3 rayUp;     float gridReach;   // from the middle to the right and upper edges; m
     vec2 pixelSize; vec2 lookupSize;   // 1 / picture's size in pixels; texels of the lightmap, 0: no snaps
     vec3 background; float fieldUnit;  // nits, where no surface is; what the field's halfs count
-    uint gridWeights; uint marchedSide; // GRID_* of grid_lookup.h; texels along a map's side, 0: none
+    uint gridWeights; uint pad; // GRID_* of grid_lookup.h
     float cutBelow; // 1: the lightmap's light continues below surfaces (engine/math/horizon.h); 0: it does not
     float positionError; // m per m of depth, of engine/render/position_error.h
 };

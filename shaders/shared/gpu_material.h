@@ -38,7 +38,7 @@ struct GpuMaterial {
 #define FEATURE_ALPHA_MASK 16u
 #define FEATURE_LIGHTMAP 32u
 #define FEATURE_GRID 64u
-#define FEATURE_MARCHED 128u // its reflections are marched through maps of probes
+#define FEATURE_REFLECTED_APART 128u // what it reflects glossily is drawn by a LightPass
 
 // Specialisation constant 0 of surface.frag, indirect.frag and direct.frag: the order of
 // limn::View.

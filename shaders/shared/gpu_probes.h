@@ -25,6 +25,11 @@ using uint = std::uint32_t;
 #define PROBE_RADIANCE 9u // as GpuMarchedMaps::radiance, of all probes
 #define PROBE_BINDINGS 10u
 
+// Bindings of set 1 of probe_reflections.frag, as GpuMarchedMaps
+#define MARCHED_PLANES 0u
+#define MARCHED_NEAREST 1u
+#define MARCHED_RADIANCE 2u
+
 #define PROBE_COEFFICIENTS 9u // three bands
 
 // What a texel of a map shows.

@@ -2,10 +2,7 @@
 // Visibility of a point from the cells of the grid, as in engine/field/grid_depth.h. Needs gridDepth[] with two values
 // per word.
 #include "shaders/shared/grid_lookup.h"
-
-float unfolded(float v, float signOf) {
-    return signOf < 0.0 ? -v : v;
-}
+#include "shaders/shared/octahedron.glsl"
 
 // Maps a texel beyond the map's border to one within it: the square's sides are folded at their middle.
 uint gridDepthTexel(int x, int y) {
@@ -18,10 +15,6 @@ uint gridDepthTexel(int x, int y) {
         x = GRID_DEPTH_SIDE - 1 - x;
     }
     return uint(y * GRID_DEPTH_SIDE + x);
-}
-
-float norm1(vec3 v) {
-    return abs(v.x) + abs(v.y) + abs(v.z);
 }
 
 // Place of direction `way` in the map [texels], from the centre of the first texel.

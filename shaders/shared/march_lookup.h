@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Read by C++ and GLSL: constants of reflections that are marched through the maps of probes, so
-// that the CPU and shaders give the same light. engine/field/marched_maps.h and march_ray.h explain
-// them.
+// that the CPU and shaders give the same light. engine/techniques/probes/marched_maps.h and
+// march_ray.h explain them.
 #ifndef SHADERS_SHARED_MARCH_LOOKUP_H
 #define SHADERS_SHARED_MARCH_LOOKUP_H
 

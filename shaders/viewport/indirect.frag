@@ -12,7 +12,7 @@
 #include "shaders/shared/surface_pack.glsl"
 
 layout(constant_id = 0) const uint kView = VIEW_LIT;
-layout(constant_id = 1) const uint kFeatures = 0; // FEATURE_LIGHTMAP, FEATURE_GRID, FEATURE_MARCHED: what any surface reads
+layout(constant_id = 1) const uint kFeatures = 0; // FEATURE_LIGHTMAP, FEATURE_GRID, FEATURE_REFLECTED_APART: what any surface reads
 layout(constant_id = 4) const int kChroma = 3; // bands of the field that are in colour
 layout(constant_id = 3) const bool kFirst = true; // first of the passes: it also writes pixels of other bands and the background
 layout(constant_id = 5) const bool kDiffuse = true; // shows diffuse light, not only what is glossy
@@ -23,16 +23,12 @@ layout(set = 1, binding = FIELD_GRID, std430) readonly buffer Grid { uvec2 grid[
 layout(set = 1, binding = FIELD_GRID_WEIGHTS, std430) readonly buffer GridDepth { uint gridDepth[]; };
 layout(set = 0, binding = FRAME_EMITTED) uniform sampler2D emittedImage;
 layout(set = 0, binding = FRAME_REFLECTIONS) uniform sampler2DArray reflectionTable;
-layout(set = 1, binding = FIELD_MARCHED_PLANES, std430) readonly buffer MarchedPlanes { vec4 marchedPlanes[]; };
-layout(set = 1, binding = FIELD_MARCHED_NEAREST, std430) readonly buffer MarchedNearest { float marchedNearest[]; };
-layout(set = 1, binding = FIELD_MARCHED_RADIANCE, std430) readonly buffer MarchedRadiance { float marchedRadiance[]; };
 
 layout(location = 0) out vec4 outColor;
 
 #include "shaders/shared/grid_depth.glsl"
 #include "shaders/shared/grid_moments.glsl"
 #include "shaders/shared/seen_surface.glsl"
-#include "shaders/shared/march_ray.glsl"
 #include "shaders/shared/field_layers.glsl"
 
 /// Two sums over the harmonics of the bounced light that reaches the surface. They are unrolled, because on a software
@@ -113,7 +109,8 @@ FieldSums readField(PackedSurface s, vec3 axis, float factors[8], bool fromGrid)
     return FieldSums(kDiffuse ? max(sums.irradiance, 0.0) * frame.fieldUnit : vec3(0), max(sums.lobe, 0.0) * frame.fieldUnit);
 }
 
-vec3 bouncedLight(PackedSurface s, bool fromGrid, bool marches) {
+/// `apart`: a technique's own pass adds what the surface reflects glossily.
+vec3 bouncedLight(PackedSurface s, bool fromGrid, bool apart) {
     const float NoV = clamp(dot(s.detailNormal, s.toEye), 0.0, 1.0);
     ReflectionLobe reflection = reflectionLobe(reflectionTable, s.roughness, NoV, kBands);
     windowFactors(reflection.factors);
@@ -126,16 +123,10 @@ vec3 bouncedLight(PackedSurface s, bool fromGrid, bool marches) {
     if (kView != VIEW_LIT)
         return diffuse;
     const vec3 F0 = mix(vec3(0.04), s.baseColor, s.metallic);
+    if ((kFeatures & FEATURE_REFLECTED_APART) != 0 && apart)
+        return diffuse;
     const float seen = fromGrid ? 1.0 : hemisphereSeen(reflection.factors, dot(axis, s.geometricNormal));
-    vec3 lobe = field.lobe / seen;
-    const bool marched = (kFeatures & FEATURE_MARCHED) != 0 && marches;
-    for (int once = 0; once < int(marched); ++once) {
-        // Half of the microfacets seen along the normal are tilted by less than atan(roughness^2).
-        const vec3 size = vec3(frame.gridSize) / frame.gridScale;
-        lobe = marchedReflection(s.position + s.geometricNormal * (MARCH_OFFSET * norm1(size)), axis,
-                                 2.0 * atan(s.roughness * s.roughness));
-    }
-    return diffuse + (F0 * reflection.share.x + reflection.share.y) * lobe;
+    return diffuse + (F0 * reflection.share.x + reflection.share.y) * field.lobe / seen;
 }
 
 void main() {

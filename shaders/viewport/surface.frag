@@ -34,8 +34,9 @@ void main() {
         outSurface = packSurface(vec3(0), -s.geometricNormal, s.geometricNormal, 0.0);
         return;
     }
-    // Bands from the lightmap are positive, from the grid negative. A half more: reflections are marched.
-    const float read = float(kBands) + (has(FEATURE_MARCHED) ? 0.5 : 0.0);
+    // Bands from the lightmap are positive, from the grid negative. A half more: a technique's own pass adds
+    // what the surface reflects glossily.
+    const float read = float(kBands) + (has(FEATURE_REFLECTED_APART) ? 0.5 : 0.0);
     const float bands = has(FEATURE_LIGHTMAP) ? read : has(FEATURE_GRID) ? -read : 0.0;
     outEmitted = vec4(unlit(s), bands);
     outSurface = packSurface(s.baseColor, s.detailNormal, s.geometricNormal, draw.nearReach * width);

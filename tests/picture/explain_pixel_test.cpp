@@ -525,7 +525,7 @@ TEST(ExplainPixel, SumsToThePictureOfMarchedReflections) {
     scene.technique = {"probes",
                        {{"probes.count", 64}, {"probes.side", 24}, {"probes.bounces", 1}}};
     const ConvergedLight lit = light(scene);
-    ASSERT_TRUE(lit.field().marched);
+    ASSERT_TRUE(reflectingPart(lit.field()));
     expectPicture(lit, chooseCamera(scene, {}));
 }
 

@@ -54,7 +54,7 @@ struct TermSink {
     void fieldLobe(const FieldPoint& p, const FieldLobe& l) {
         add(lobe, [&](ValueSink& v) { v.fieldLobe(p, l); });
     }
-    void marched(const MarchedMaps& /*maps*/, const MarchedReflection& /*reflection*/) {}
+    void fieldReflection(const FieldPart& /*part*/, const FieldReflection& /*reflection*/) {}
 
     glm::vec3 total() const {
         return background_ + emission_ + direct + nearDirect + irradiance + radiance + lobe;

@@ -214,8 +214,8 @@ static std::uint32_t variantFeatures(std::uint32_t material, std::uint32_t bands
         f &= ~FEATURE_NORMAL_TEXTURE;
     if (indirect)
         f |= instance.hasLightmap ? FEATURE_LIGHTMAP : view.grid ? FEATURE_GRID : 0u;
-    if (lit && view.marched && bands > std::uint32_t(kIrradianceBands))
-        f |= FEATURE_MARCHED;
+    if (lit && view.reflectedApart && bands > std::uint32_t(kIrradianceBands))
+        f |= FEATURE_REFLECTED_APART;
     return f;
 }
 
@@ -243,7 +243,8 @@ SurfacesDrawn GeometryPasses::drawSurfaces(VkCommandBuffer cmd, const RenderScen
         const Variant variant{view.view, features,
                               bandsRead(materials.bands[instance.material], features, view)};
         if (features & (FEATURE_LIGHTMAP | FEATURE_GRID)) {
-            drawn.features |= features & (FEATURE_LIGHTMAP | FEATURE_GRID | FEATURE_MARCHED);
+            drawn.features |=
+                features & (FEATURE_LIGHTMAP | FEATURE_GRID | FEATURE_REFLECTED_APART);
             drawn.bands[variant.bands] = true;
         }
         gpu::Pipeline& pipeline = m_surface[variant];

@@ -29,17 +29,17 @@ struct GeometryView {
     View view = View::Lit;
     glm::mat4 toClip{1};
     glm::vec3 eye{0};
-    bool grid = false;       ///< instances without lightmap read the grid
-    std::uint32_t bands = 3; ///< bands of the indirect light
-    bool marched = false;    ///< reflections of glossy receivers are marched
+    bool grid = false;           ///< instances without lightmap read the grid
+    std::uint32_t bands = 3;     ///< bands of the indirect light
+    bool reflectedApart = false; ///< what glossy receivers reflect is drawn by a LightPass
     bool operator==(const GeometryView&) const = default;
 };
 
 /// How the surfaces that were drawn read bounced light.
 struct SurfacesDrawn {
     std::array<bool, kMaxBands + 1> bands{}; ///< bands[n]: some surface reads n bands
-    std::uint32_t features = 0; ///< FEATURE_LIGHTMAP, FEATURE_GRID and FEATURE_MARCHED, if any
-                                ///< surface reads them
+    std::uint32_t features = 0; ///< FEATURE_LIGHTMAP, FEATURE_GRID and FEATURE_REFLECTED_APART, if
+                                ///< any surface reads them
 };
 
 /// Selects geometry inside `toClip` and no further than `reach` from `eye` [m].

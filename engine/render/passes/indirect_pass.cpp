@@ -11,12 +11,7 @@ namespace {
 
 constexpr VkDescriptorType kFieldBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 constexpr std::array<VkDescriptorType, FIELD_BINDINGS> kFieldTypes = {
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    kFieldBuffer,
-    kFieldBuffer,
-    kFieldBuffer,
-    kFieldBuffer,
-    kFieldBuffer};
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFieldBuffer, kFieldBuffer};
 
 } // namespace
 
@@ -42,10 +37,6 @@ void IndirectPass::bind(const GpuField& field, std::uint32_t slot) {
     gpu::writeTexture(m_device, set, FIELD_LIGHTMAP, field.lightmap.view, m_sampler.handle);
     bindBuffer(FIELD_GRID, &field.grid);
     bindBuffer(FIELD_GRID_WEIGHTS, field.gridDepth.get());
-    const GpuMarchedMaps* maps = field.marched.get();
-    bindBuffer(FIELD_MARCHED_PLANES, maps ? &maps->planes : nullptr);
-    bindBuffer(FIELD_MARCHED_NEAREST, maps ? &maps->nearest : nullptr);
-    bindBuffer(FIELD_MARCHED_RADIANCE, maps ? &maps->radiance : nullptr);
     m_chroma[slot] = field.chroma;
 }
 

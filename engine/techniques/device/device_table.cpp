@@ -6,6 +6,7 @@
 #include "engine/techniques/lpv/gpu/device_lpv.h"
 #include "engine/techniques/lpv/lpv.h"
 #include "engine/techniques/probes/gpu/device_probes.h"
+#include "engine/techniques/probes/gpu/marched_pass.h"
 #include "engine/techniques/probes/probes.h"
 #include "engine/techniques/sparse_probes/gpu/device_sparse.h"
 #include "engine/techniques/sparse_probes/sparse_probes.h"
@@ -26,9 +27,10 @@ struct Row {
     std::shared_ptr<LightPass> (*pass)(gpu::Device&, Viewport&, const IndirectField&) = nullptr;
 };
 
-constexpr std::array kRows = {
-    Row{&kIlluminanceTechnique, lightIlluminanceOnDevice}, Row{&kLpvTechnique, lightLpvOnDevice},
-    Row{&kProbesTechnique, lightProbesOnDevice}, Row{&kSparseProbesTechnique, lightSparseOnDevice}};
+constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevice},
+                              Row{&kLpvTechnique, lightLpvOnDevice},
+                              Row{&kProbesTechnique, lightProbesOnDevice, uploadMarchedPart},
+                              Row{&kSparseProbesTechnique, lightSparseOnDevice}};
 
 } // namespace
 

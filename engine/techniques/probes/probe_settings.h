@@ -85,7 +85,7 @@ struct ProbeSettings {
     std::uint32_t perUpdate = 2; ///< probes that an update refreshes while somebody looks
     bool smooth = false;         ///< GridMoments::smooth
     bool bounces = false;        ///< light bounces more than once
-    bool reflections = true;     ///< IndirectField::marched, where there is a glossy receiver
+    bool reflections = true;     ///< a MarchedPart, where there is a glossy receiver
 };
 ProbeSettings probeSettingsOf(const TechniqueChoice& choice);
 

@@ -3,9 +3,9 @@
 
 #include "engine/core/parallel.h"
 #include "engine/field/grid_cells.h"
-#include "engine/field/march_ray.h"
 #include "engine/field/sample_field.h"
 #include "engine/overlay/palette.h"
+#include "engine/techniques/probes/march_ray.h"
 #include "engine/techniques/probes/probe_planes.h"
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/stopwatch.h"
+#include "engine/techniques/probes/marched_part.h"
 #include "engine/techniques/probes/probe_inputs.h"
 #include "engine/techniques/probes/probe_light.h"
 #include "engine/techniques/probes/probe_overlay.h"
@@ -28,7 +29,7 @@ public:
     LightingReport update(const LightingInput& input, const Progress& progress) override;
     const IndirectField* field() const override { return &m_field; }
     std::shared_ptr<const LightSnapshot> snapshot() const override;
-    glm::vec3 marchedFrom(std::uint32_t origin, const FieldReading& reading) const;
+    glm::vec3 reflectedFrom(std::uint32_t origin, const FieldReading& reading) const;
     Explanation explain(const Scene& scene, const FieldReading& reading,
                         const ExplainOptions& options) const override;
 
@@ -38,7 +39,7 @@ private:
         double maps = 0, light = 0, field = 0, reflections = 0;
     };
 
-    void followScene(const Scene& scene, bool marched);
+    void followScene(const Scene& scene, bool reflections);
     void keepTexels(bool keep);
     bool isStale(std::uint32_t probe, std::uint32_t origin) const;
     bool isStale(std::uint32_t probe) const; ///< any of its origins
@@ -79,7 +80,7 @@ glm::vec3 weightOf(const Light& light) {
 }
 
 /// Marks as stale what depends on whatever changed in the scene.
-void ProbeLighting::followScene(const Scene& scene, bool marched) {
+void ProbeLighting::followScene(const Scene& scene, bool reflections) {
     const ProbeSettings settings = probeSettingsOf(scene.technique);
     ProbeInputs now = inputsOf(scene, settings, m_inputs);
     if (!sameLattice(now, m_inputs)) {
@@ -89,7 +90,7 @@ void ProbeLighting::followScene(const Scene& scene, bool marched) {
         m_refreshedBy.assign(now.grid.count(), 0);
         m_probePlanes.assign(now.grid.count(), 0);
         m_field.grid.clear();
-        m_field.marched = nullptr;
+        m_field.parts.clear();
         m_fieldStale = true;
         m_light.parts.clear();
         m_next = 0;
@@ -101,8 +102,8 @@ void ProbeLighting::followScene(const Scene& scene, bool marched) {
         m_editions.assign(m_light.origins(), 1);
         m_probeEditions.assign(m_light.parts.size(), 0);
     }
-    keepTexels(marched && settings.reflections && now.glossy);
-    m_lacksReflections = !marched && settings.reflections && now.glossy;
+    keepTexels(reflections && settings.reflections && now.glossy);
+    m_lacksReflections = !reflections && settings.reflections && now.glossy;
     if (!sameSurfaces(now, m_inputs))
         ++m_mapEdition;
     for (std::uint32_t l = 0; l < std::min(now.lights.size(), m_inputs.lights.size()); ++l)
@@ -138,7 +139,7 @@ void ProbeLighting::keepTexels(bool keep) {
     }
     for (std::vector<glm::vec3>& texels : m_light.texels)
         texels = {};
-    m_field.marched = nullptr;
+    m_field.parts.clear();
     m_fieldStale = true;
 }
 
@@ -248,9 +249,9 @@ void ProbeLighting::writeField() {
 /// Sums the origins in the texels of the maps, and follows surfaces that moved.
 void ProbeLighting::writeReflections(const Scene& scene) {
     const std::size_t texels = m_maps.map.texels();
+    const MarchedMaps* before = marchedMapsOf(m_field.parts);
     auto maps = std::make_shared<MarchedMaps>(
-        m_field.marched ? *m_field.marched
-                        : emptyMarchedMaps(m_maps.grid.size, m_maps.grid.bounds, m_maps.map.side));
+        before ? *before : emptyMarchedMaps(m_maps.grid.size, m_maps.grid.bounds, m_maps.map.side));
     parallelRanges(m_maps.grid.count(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
             if (m_probeMaps[p] == m_mapEdition && m_probePlanes[p] != m_mapEdition) {
@@ -269,7 +270,7 @@ void ProbeLighting::writeReflections(const Scene& scene) {
             updateLevels(*maps, p);
         }
     });
-    m_field.marched = std::move(maps);
+    m_field.parts = {std::make_shared<const MarchedPart>(std::move(maps))};
 }
 
 LightingReport ProbeLighting::report(const Times& times, std::uint32_t bounces) const {
@@ -299,7 +300,8 @@ LightingReport ProbeLighting::report(const Times& times, std::uint32_t bounces) 
         {"probe_bytes", "Memory", "Maps, moments and light of the probes", bytes,
          CounterUnit::Bytes}};
     if (m_light.keepsTexels) {
-        std::size_t reflections = m_field.marched ? m_field.marched->bytes() : 0;
+        const MarchedMaps* maps = marchedMapsOf(m_field.parts);
+        std::size_t reflections = maps ? maps->bytes() : 0;
         for (const std::vector<glm::vec3>& texels : m_light.texels)
             reflections += texels.size() * sizeof(glm::vec3);
         report.counters.push_back({"reflection_bytes", "Memory of reflections",
@@ -316,7 +318,7 @@ LightingReport ProbeLighting::report(const Times& times, std::uint32_t bounces) 
 
 LightingReport ProbeLighting::update(const LightingInput& input, const Progress& progress) {
     m_rays = m_refreshed = 0;
-    followScene(input.scene, input.marched);
+    followScene(input.scene, input.reflections);
     if (m_maps.grid.count() == 0) {
         LightingReport nothing;
         nothing.converged = nothing.skipped = true;
@@ -365,24 +367,24 @@ std::shared_ptr<const LightSnapshot> ProbeLighting::snapshot() const {
     return std::make_shared<const ProbeSnapshot>(std::move(lit));
 }
 
-/// The share of an origin in what a reading looks up in the maps.
-glm::vec3 ProbeLighting::marchedFrom(std::uint32_t origin, const FieldReading& reading) const {
+/// The share of an origin in what a reading looks up in the maps, which are the field's only part.
+glm::vec3 ProbeLighting::reflectedFrom(std::uint32_t origin, const FieldReading& reading) const {
     glm::vec3 sum(0);
-    if (m_light.texels[origin].empty())
+    const MarchedMaps* all = marchedMapsOf(m_field.parts);
+    if (!all || m_light.texels[origin].empty())
         return sum;
     std::map<std::uint32_t, MarchedMaps> probes; // of one probe each, of this origin's radiance
     const std::size_t texels = m_maps.map.texels();
-    for (const FieldReading::Marched& m : reading.marched) {
-        if (m.lookup.probe == MarchedRay::kNoProbe)
-            continue;
-        const auto [known, isNew] = probes.try_emplace(m.lookup.probe);
+    for (const FieldReading::PartNumber& number : reading.partNumbers) {
+        const MarchedTexel texel = marchedTexel(*all, number.index);
+        const auto [known, isNew] = probes.try_emplace(texel.probe);
         if (isNew) {
             known->second = emptyMarchedMaps(glm::uvec3(1), m_maps.grid.bounds, m_maps.map.side);
-            std::copy_n(m_light.texels[origin].data() + m.lookup.probe * texels, texels,
+            std::copy_n(m_light.texels[origin].data() + texel.probe * texels, texels,
                         known->second.radiance[0].data());
             updateLevels(known->second, 0);
         }
-        sum += m.weight * marchedRadiance(known->second, {0, m.lookup.direction, m.lookup.spread});
+        sum += number.weight * known->second.radiance[texel.level][texel.texel];
     }
     return sum;
 }
@@ -396,7 +398,7 @@ Explanation ProbeLighting::explain(const Scene& scene, const FieldReading& readi
         for (const FieldReading::Entry& entry : reading.entries)
             for (std::size_t i = 0; i < m_field.coefficients(); ++i)
                 sum += entry.weight[i] * m_light.part(entry.index, origin)[i];
-        return sum + marchedFrom(origin, reading);
+        return sum + reflectedFrom(origin, reading);
     };
     Explanation result;
     LightRow sky{.kind = LightRowKind::Sky, .label = "Sky", .value = valueOf(m_light.sky())};

@@ -14,7 +14,7 @@ namespace limn {
 /// paper draws six pictures of each probe. Irradiance is kept as three bands of spherical harmonics
 /// instead of a filtered octahedral map: its error for clamped cosines is below 1 %, except below
 /// small bright sources. On the CPU, glossy reflections are marched through the maps for pictures
-/// that ask for it (LightingInput::marched); else surfaces reflect the harmonics.
+/// that ask for it (LightingInput::reflections); else surfaces reflect the harmonics.
 extern const Technique kProbesTechnique;
 
 } // namespace limn

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "engine/field/march_ray.h"
 #include "engine/math/sampling.h"
+#include "engine/techniques/probes/march_ray.h"
 #include "engine/techniques/probes/probe_planes.h"
 #include "tests/trace/simple_scene.h"
 

@@ -5,6 +5,7 @@
 #include "engine/math/sampling.h"
 #include "engine/picture/field_lobe.h"
 #include "engine/picture/field_render.h"
+#include "engine/techniques/probes/marched_part.h"
 #include "tests/techniques/probes/lit_by_probes.h"
 
 #include <gtest/gtest.h>
@@ -40,9 +41,9 @@ struct Reflected : LitByProbes {
 
     LightingReport march() {
         return lighting->update(
-            {.scene = scene, .trace = trace.get(), .bounces = 64, .marched = true}, {});
+            {.scene = scene, .trace = trace.get(), .bounces = 64, .reflections = true}, {});
     }
-    const MarchedMaps* maps() const { return lighting->field()->marched.get(); }
+    const MarchedMaps* maps() const { return marchedMapsOf(lighting->field()->parts); }
 };
 
 /// Calls `visit` with reflections at points of metal that rays from `eye` meet.
@@ -58,7 +59,7 @@ int reflect(const Reflected& lit, glm::vec3 eye, const Visit& visit) {
         const std::optional<SurfacePoint> p = surfacePoint(*lit.trace, hit);
         if (!p)
             continue;
-        visit(marchReflection(*lit.maps(), *lit.trace, glossyPoint(*lit.trace, hit, ray, *p)));
+        visit(fieldReflection(*lit.trace, glossyPoint(*lit.trace, hit, ray, *p)));
         ++count;
     }
     return count;
@@ -76,8 +77,10 @@ TEST(ProbeReflections, AFurnaceIsReflectedAsItIs) {
         Reflected lit(b.build());
         lit.march();
         ASSERT_TRUE(lit.maps());
-        const int count = reflect(lit, {3, 2, 3}, [&](const MarchedReflection& r) {
-            EXPECT_LT(glm::distance(marchedRadiance(*lit.maps(), r.lookup), L), 1e-4f) << roughness;
+        const FieldPart* part = reflectingPart(*lit.lighting->field());
+        const int count = reflect(lit, {3, 2, 3}, [&](const FieldReflection& r) {
+            EXPECT_LT(glm::distance(sampleReflection(*part, r.lobe).radiance, L), 1e-4f)
+                << roughness;
         });
         EXPECT_GT(count, 10);
     }
@@ -138,8 +141,8 @@ TEST(ProbeReflections, ExplainWhereTheirLightComesFrom) {
     Reflected lit(scene, {{"probes.bounces", 1}});
     lit.march();
     FieldReading reading;
-    const int count = reflect(lit, {3, 2, 3}, [&](const MarchedReflection& r) {
-        reading.marched.push_back({r.lookup, r.weight});
+    const int count = reflect(lit, {3, 2, 3}, [&](const FieldReflection& r) {
+        addReflection(*lit.lighting->field(), r.lobe, r.weight, reading);
     });
     ASSERT_GT(count, 10);
     const glm::vec3 is = valueOf(reading, *lit.lighting->field());
@@ -166,15 +169,15 @@ TEST(ProbeReflections, APictureCountsThemAndMirrorsTheHalfOfTheWallThatGlows) {
     options.camera.eye = {2, 1.5f, 3.5f};
     options.camera.target = {2, 0.5f, 1};
     options.width = options.height = 32;
-    MarchedCounts counts;
-    options.marched = &counts;
+    ReflectionCounts counts;
+    options.reflections = &counts;
     const ImageF image =
         renderField(*lit.trace, *lit.lighting->field(), layoutWithoutLightmap(lit.scene), options);
     const std::uint32_t row = 22 * 32; // of the floor
     EXPECT_NEAR(image.rgb[row + 8].x, 0.9f * 5, 0.5f);
     EXPECT_LT(image.rgb[row + 24].x, 0.5f);
-    EXPECT_GT(counts.rays, 16U * 32 * 8);
-    EXPECT_LT(double(counts.unknown), 0.01 * double(counts.rays));
+    EXPECT_GT(counts.all, 16U * 32 * 8);
+    EXPECT_LT(double(counts.unknown), 0.01 * double(counts.all));
 }
 
 } // namespace

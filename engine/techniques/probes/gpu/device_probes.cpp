@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/stopwatch.h"
 #include "engine/field/field_packing.h"
+#include "engine/techniques/probes/gpu/marched_pass.h"
 #include "engine/techniques/probes/probe_overlay.h"
 #include "engine/techniques/probes/probe_planes.h"
 
@@ -65,6 +66,8 @@ bool DeviceProbes::followScene(const Scene& scene, const ProbeSettings& settings
 void DeviceProbes::followReflections(bool wanted) {
     const bool marched = m_gpu && m_gpu->setMarched(wanted);
     m_lacksReflections = m_gpu && wanted && !marched;
+    if (!marched)
+        m_reflections = nullptr;
     if (marched == (m_planes.side > 0))
         return;
     m_planes = marched ? emptyMarchedMaps(m_maps.grid.size, m_maps.grid.bounds, m_maps.map.side)
@@ -72,6 +75,8 @@ void DeviceProbes::followReflections(bool wanted) {
     m_planes.radiance = {}; // the device has it
     m_planesStale = marched;
     m_lightStale = true;
+    if (marched)
+        m_reflections = std::make_shared<MarchedPass>(m_device, m_viewport, m_gpu->marched());
 }
 
 std::uint32_t DeviceProbes::countStale() const {
@@ -248,7 +253,7 @@ LightingReport DeviceProbes::update(const LightingInput& input, const Progress& 
         m_gpu->writeField(scaleServes(scale, brightest) ? scale : fieldScale(brightest));
         work.field = m_gpu->fieldMs;
     }
-    m_viewport.setIndirect(m_gpu->field());
+    m_viewport.setIndirect(m_gpu->field(), m_reflections);
     work.dispatches = m_gpu->dispatches() - before;
     return report(work, total.lap());
 }

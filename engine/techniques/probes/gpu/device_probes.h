@@ -5,6 +5,7 @@
 #include "engine/lighting/precomputed.h"
 #include "engine/render/viewport.h"
 #include "engine/techniques/probes/gpu/gpu_probes.h"
+#include "engine/techniques/probes/marched_maps.h"
 #include "engine/techniques/probes/probe_inputs.h"
 
 #include <memory>
@@ -15,7 +16,7 @@ namespace limn {
 /// Light field probes on the device of a viewport, which shows the light where it was written. The
 /// maps are traced on the CPU; what they show is lit by the viewport's shadow maps. Each update
 /// lights all probes, and while somebody looks it traces the maps of a few of them, in turn, if
-/// surfaces moved. Where the document asks for it, the field has maps for marched reflections. The
+/// surfaces moved. Where the document asks for it, reflections of glossy surfaces are marched. The
 /// same device gives the same bits for the same inputs.
 class DeviceProbes : public Lighting {
 public:
@@ -66,17 +67,18 @@ private:
     std::uint32_t m_mapEdition = 0;         ///< of the surfaces
     std::vector<std::uint32_t> m_probeMaps; ///< per probe: edition of its map; 0: none
     std::vector<std::uint32_t>
-        m_refreshedBy;               ///< per probe: the update that traced its map; 0: none
-    std::uint32_t m_updates = 0;     ///< that traced any map
-    std::uint32_t m_next = 0;        ///< probe to be looked at first
-    bool m_materialsStale = false;   ///< on the device
-    bool m_lightStale = false;       ///< the probes' light is of older inputs
-    MarchedMaps m_planes;            ///< without radiance; of no probe: nothing is marched
-    bool m_planesStale = false;      ///< of probes whose maps are current, on the device
-    bool m_lacksReflections = false; ///< which the document asks for
-    bool m_bouncing = false;         ///< light bounces more than once
-    double m_before = 0;             ///< sum of the mean radiance when a bounce began
-    float m_brightest = 0;           ///< of the means [W m^-2 sr^-1]
+        m_refreshedBy;             ///< per probe: the update that traced its map; 0: none
+    std::uint32_t m_updates = 0;   ///< that traced any map
+    std::uint32_t m_next = 0;      ///< probe to be looked at first
+    bool m_materialsStale = false; ///< on the device
+    bool m_lightStale = false;     ///< the probes' light is of older inputs
+    MarchedMaps m_planes;          ///< without radiance; of no probe: nothing is marched
+    bool m_planesStale = false;    ///< of probes whose maps are current, on the device
+    std::shared_ptr<LightPass> m_reflections; ///< of the marched maps; null: there are none
+    bool m_lacksReflections = false;          ///< which the document asks for
+    bool m_bouncing = false;                  ///< light bounces more than once
+    double m_before = 0;                      ///< sum of the mean radiance when a bounce began
+    float m_brightest = 0;                    ///< of the means [W m^-2 sr^-1]
 };
 
 /// DeviceProbes for the table of techniques. Fails as DeviceProbes::create().

@@ -148,10 +148,8 @@ void GpuProbes::setMoments(const GridMoments& moments) {
     m_moments = std::make_shared<const gpu::Buffer>(
         gpu::Uploader(m_device).buffer(std::as_bytes(std::span(moments.texels)),
                                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "moments of probes"));
-    m_field = createWrittenField(m_device, {.gridSize = m_grid.size,
-                                            .gridBounds = m_grid.bounds,
-                                            .gridDepth = m_moments,
-                                            .marched = m_marched});
+    m_field = createWrittenField(
+        m_device, {.gridSize = m_grid.size, .gridBounds = m_grid.bounds, .gridDepth = m_moments});
     forSets(PROBE_MOMENTS, m_moments->handle);
     forSets(PROBE_GRID, m_field->grid.handle);
     setSmooth(m_smooth);
@@ -165,7 +163,6 @@ void GpuProbes::setSmooth(bool smooth) {
 bool GpuProbes::setMarched(bool marched) {
     if (marched != (m_marched != nullptr)) {
         m_marched = marched ? createMarchedMaps(m_device, m_grid.count(), m_map.side) : nullptr;
-        m_field->marched = m_marched;
         forSets(PROBE_RADIANCE, m_marched ? m_marched->radiance.handle : m_means.handle);
     }
     return m_marched != nullptr;

@@ -4,6 +4,7 @@
 #include "engine/gpu/timestamps.h"
 #include "engine/render/gpu_field.h"
 #include "engine/render/point_irradiance.h"
+#include "engine/techniques/probes/gpu/gpu_marched_maps.h"
 #include "engine/techniques/probes/probe_light.h"
 #include "shaders/shared/gpu_probes.h"
 
@@ -35,12 +36,14 @@ public:
     void setSky(const Sky& sky);
     /// GridMoments::smooth. setMoments() keeps it.
     void setSmooth(bool smooth);
-    /// Gives the field maps through which reflections are marched, or takes them away. The next
-    /// project() and writeField() write the radiance of these maps; setPlanes() writes their
-    /// surfaces. Returns true if the field has maps now. It has none if the device cannot bind
-    /// buffers that large.
+    /// Begins to keep maps through which reflections are marched, or ends it. The next project()
+    /// and writeField() write the radiance of these maps; setPlanes() writes their surfaces.
+    /// Returns true if there are maps now. There are none if the device cannot bind buffers that
+    /// large.
     bool setMarched(bool marched);
-    /// Replaces the planes of some probes in the field's marched maps, of which there must be some.
+    /// Those maps; null: none.
+    const std::shared_ptr<const GpuMarchedMaps>& marched() const { return m_marched; }
+    /// Replaces the planes of some probes in these maps, of which there must be some.
     void setPlanes(const MarchedMaps& maps, std::span<const std::uint32_t> probes);
 
     /// Lights the hits. Returns whether their light was computed.

@@ -2,6 +2,7 @@
 #include "engine/lightmap/atlas.h"
 #include "engine/picture/field_render.h"
 #include "engine/techniques/probes/gpu/device_probes.h"
+#include "engine/techniques/probes/gpu/marched_pass.h"
 #include "tests/core/sweep.h"
 #include "tests/render/viewport_fixture.h"
 #include "tests/techniques/probes/lit_by_probes.h"
@@ -70,7 +71,8 @@ protected:
     ImageF drawOnCpu() {
         lit->trace = std::make_shared<const TraceScene>(lit->scene);
         lit->lighting->update(
-            {.scene = lit->scene, .trace = lit->trace.get(), .bounces = 64, .marched = true}, {});
+            {.scene = lit->scene, .trace = lit->trace.get(), .bounces = 64, .reflections = true},
+            {});
         FieldRenderOptions o;
         o.camera = options.camera;
         o.width = o.height = kSide;
@@ -167,7 +169,8 @@ TEST_F(DeviceReflectionsTest, OfAFieldOfTheCpuAreTheSame) {
     prepare(0.1f);
     update();
     const ImageF shown = draw(), expected = drawOnCpu();
-    viewport->setIndirect(*lit->lighting->field());
+    const IndirectField& field = *lit->lighting->field();
+    viewport->setIndirect(field, uploadMarchedPart(*device, *viewport, field));
     const ImageF uploaded = draw();
     EXPECT_LT(difference(uploaded, expected).share, kEdges);
     EXPECT_LT(difference(uploaded, shown).share, kEdges);

@@ -4,6 +4,7 @@
 #include "engine/scene/mesh/bounds.h"
 #include "shaders/shared/march_lookup.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -15,7 +16,7 @@
 namespace limn {
 
 /// What the probes of a grid see, as octahedral maps (engine/math/octahedral.h) through which
-/// glossy reflections are marched (engine/field/march_ray.h): radiance, and the distances and
+/// glossy reflections are marched (march_ray.h): radiance, and the distances and
 /// normals of surfaces. McGuire, Mara, Nowrouzezahrai, Luebke. Real-Time Global Illumination using
 /// Precomputed Light Field Probes. 2017.
 ///
@@ -47,6 +48,7 @@ struct MarchedMaps {
     std::uint32_t nearestSide() const { return (side + kBlock - 1) / kBlock; }
     std::uint32_t levelSide(std::size_t level) const;
     std::size_t bytes() const; ///< memory of the maps
+    bool operator==(const MarchedMaps&) const = default;
 };
 
 /// Black maps of an empty scene.
@@ -61,6 +63,22 @@ void updateNearest(MarchedMaps& maps, std::size_t probe);
 
 /// Recomputes the coarser levels of a probe's radiance from the finest.
 void updateLevels(MarchedMaps& maps, std::size_t probe);
+
+/// A texel of radiance[level] and its weight in a lookup.
+struct MarchedTap {
+    std::uint32_t level = 0, index = 0;
+    float weight = 0;
+};
+
+/// Texels of two levels at most, whose weights sum to 1.
+struct MarchedTaps {
+    std::size_t count = 0;
+    std::array<MarchedTap, 8> tap{};
+};
+
+/// The texels of probeRadiance().
+MarchedTaps probeTaps(const MarchedMaps& maps, std::size_t probe, glm::vec3 direction,
+                      float spread);
 
 /// Radiance that a probe sees in a lobe about `direction`, which is not 0, of which half lies
 /// within `spread` [rad]: bilinear, between the two levels whose lookups are about as wide.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/field/march_ray.h"
+#include "engine/techniques/probes/march_ray.h"
 
 #include "engine/field/grid_cells.h"
 #include "engine/math/octahedral.h"

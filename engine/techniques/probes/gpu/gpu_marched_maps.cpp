@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/render/gpu_marched_maps.h"
+#include "engine/techniques/probes/gpu/gpu_marched_maps.h"
 
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/storage_maker.h"
@@ -10,7 +10,7 @@
 
 namespace limn {
 
-static gpu::Buffer storage(gpu::Device& device, VkDeviceSize bytes, const char* name) {
+static gpu::Buffer mapBuffer(gpu::Device& device, VkDeviceSize bytes, const char* name) {
     return {device,
             {.size = bytes,
              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
@@ -34,9 +34,9 @@ std::shared_ptr<GpuMarchedMaps> createMarchedMaps(gpu::Device& device, std::uint
     auto maps = std::make_shared<GpuMarchedMaps>();
     maps->probes = probes;
     maps->side = side;
-    maps->planes = storage(device, planes, "planes of probes");
-    maps->nearest = storage(device, nearest, "nearest surfaces of probes");
-    maps->radiance = storage(device, radiance, "radiance of probes");
+    maps->planes = mapBuffer(device, planes, "planes of probes");
+    maps->nearest = mapBuffer(device, nearest, "nearest surfaces of probes");
+    maps->radiance = mapBuffer(device, radiance, "radiance of probes");
     gpu::clearBuffers(device, {maps->planes.handle, maps->nearest.handle, maps->radiance.handle});
     return maps;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/field/march_ray.h"
+#include "engine/techniques/probes/march_ray.h"
 
 #include "engine/math/octahedral.h"
 #include "engine/math/sampling.h"
@@ -152,7 +152,10 @@ TEST(MarchRay, SpecialRaysHaveNumbers) {
                 const MarchedRay ray = marchRay(maps, o, d);
                 EXPECT_EQ(ray.end, MarchEnd::Hit);
                 EXPECT_NEAR(ray.t, kRoom.upper[a] - sign * o[a], 1e-4f) << a << ", " << sign;
-                EXPECT_EQ(marchedRadiance(maps, lookUp(maps, ray, o, d, 0.1f)), glm::vec3(1));
+                // The weights of up to eight texels sum to 1 but for rounding.
+                EXPECT_LT(glm::distance(marchedRadiance(maps, lookUp(maps, ray, o, d, 0.1f)),
+                                        glm::vec3(1)),
+                          1e-6f);
             }
     // Through the probe, from all around.
     for (std::uint32_t i = 0; i < 500; ++i) {

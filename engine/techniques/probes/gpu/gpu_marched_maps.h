@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/field/marched_maps.h"
 #include "engine/gpu/buffer.h"
+#include "engine/techniques/probes/marched_maps.h"
 
 #include <cstdint>
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace limn {
 
-/// MarchedMaps on the GPU, for shaders/shared/march_ray.glsl.
+/// MarchedMaps on the GPU, for shaders/probes/march_ray.glsl.
 struct GpuMarchedMaps {
     std::uint32_t probes = 0, side = 0; ///< MarchedMaps::side
     gpu::Buffer planes;                 ///< MarchedMaps::planes, a vec4 each

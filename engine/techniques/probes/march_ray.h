@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/field/marched_maps.h"
+#include "engine/techniques/probes/marched_maps.h"
 
 #include <array>
 #include <cstddef>

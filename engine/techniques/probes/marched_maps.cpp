@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "engine/field/marched_maps.h"
+#include "engine/techniques/probes/marched_maps.h"
 
 #include "engine/math/octahedral.h"
 
@@ -100,22 +100,22 @@ glm::ivec2 wrapped(glm::ivec2 texel, int side) {
     return texel;
 }
 
-glm::vec3 bilinear(const MarchedMaps& maps, std::size_t level, std::size_t probe,
-                   glm::vec2 square) {
+/// Adds the texels of a bilinear lookup, which share `weight`.
+void addBilinear(const MarchedMaps& maps, std::size_t level, std::size_t probe, glm::vec2 square,
+                 float weight, MarchedTaps& taps) {
     const auto side = int(maps.levelSide(level));
-    const glm::vec3* texels =
-        maps.radiance[level].data() + probe * std::size_t(side) * std::size_t(side);
+    const std::size_t first = probe * std::size_t(side) * std::size_t(side);
     const glm::vec2 position = (square * 0.5f + 0.5f) * float(side) - 0.5f,
                     lower = glm::floor(position);
     const glm::vec2 f = position - lower;
-    glm::vec3 sum(0);
     for (int k = 0; k < 4; ++k) {
         const glm::ivec2 step(k & 1, k >> 1);
         const glm::ivec2 texel = wrapped(glm::ivec2(lower) + step, side);
         const glm::vec2 w = glm::mix(1.f - f, f, glm::vec2(step));
-        sum += w.x * w.y * texels[texel.y * side + texel.x];
+        taps.tap[taps.count++] = {std::uint32_t(level),
+                                  std::uint32_t(first + std::size_t(texel.y * side + texel.x)),
+                                  w.x * w.y * weight};
     }
-    return sum;
 }
 
 } // namespace
@@ -139,8 +139,8 @@ void updateLevels(MarchedMaps& maps, std::size_t probe) {
     }
 }
 
-glm::vec3 probeRadiance(const MarchedMaps& maps, std::size_t probe, glm::vec3 direction,
-                        float spread) {
+MarchedTaps probeTaps(const MarchedMaps& maps, std::size_t probe, glm::vec3 direction,
+                      float spread) {
     // A bilinear lookup of texels of side 1 has a variance of 1/6 + 1/12 along each axis; half of a
     // Gaussian like that lies within 0.59. A texel of the finest level is as wide as the square of
     // the mean solid angle.
@@ -150,9 +150,21 @@ glm::vec3 probeRadiance(const MarchedMaps& maps, std::size_t probe, glm::vec3 di
     const float level = std::clamp(std::log2(std::max(spread / texel, 1.f)), 0.f, last);
     const auto lower = std::size_t(level);
     const glm::vec2 square = octahedralSquare(direction);
-    const glm::vec3 finer = bilinear(maps, lower, probe, square);
     const float f = level - float(lower);
-    return f > 0 ? glm::mix(finer, bilinear(maps, lower + 1, probe, square), f) : finer;
+    MarchedTaps taps;
+    addBilinear(maps, lower, probe, square, 1 - f, taps);
+    if (f > 0)
+        addBilinear(maps, lower + 1, probe, square, f, taps);
+    return taps;
+}
+
+glm::vec3 probeRadiance(const MarchedMaps& maps, std::size_t probe, glm::vec3 direction,
+                        float spread) {
+    const MarchedTaps taps = probeTaps(maps, probe, direction, spread);
+    glm::vec3 sum(0);
+    for (std::size_t k = 0; k < taps.count; ++k)
+        sum += taps.tap[k].weight * maps.radiance[taps.tap[k].level][taps.tap[k].index];
+    return sum;
 }
 
 } // namespace limn

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Marches rays through octahedral maps of probes, as engine/field/march_ray.h does. Needs `frame`, norm1() and
-// unfolded() of grid_depth.glsl, and the buffers marchedPlanes[], marchedNearest[] and marchedRadiance[] of
-// engine/render/gpu_marched_maps.h.
+// Marches rays through octahedral maps of probes, as engine/techniques/probes/march_ray.h does. Needs `frame`,
+// kMapSide, and the buffers marchedPlanes[], marchedNearest[] and marchedRadiance[] of
+// engine/techniques/probes/gpu/gpu_marched_maps.h.
 #include "shaders/shared/march_lookup.h"
+#include "shaders/shared/octahedron.glsl"
 
 const uint kNoProbe = 0xffffffffu;
 const uint kMarchHit = 0u, kMarchMiss = 1u, kMarchUnknown = 2u;
 
-/// MarchedRay of engine/field/march_ray.h.
+/// MarchedRay of engine/techniques/probes/march_ray.h.
 struct MarchedRay {
     uint end, probe;
     float t;
 };
 
 uint marchedBlocks() {
-    return (frame.marchedSide + MARCH_BLOCK - 1u) / MARCH_BLOCK;
+    return (kMapSide + MARCH_BLOCK - 1u) / MARCH_BLOCK;
 }
 
 bool marchedInSolid(uint probe) {
@@ -88,7 +89,7 @@ bool passTexel(vec4 plane, vec3 origin, vec3 direction, float tIn, float tOut, i
         inFront = true;
         return true;
     }
-    const float unit = length(G) * MARCH_THICKNESS * 2.0 / float(frame.marchedSide) * norm1(origin + tIn * direction);
+    const float unit = length(G) * MARCH_THICKNESS * 2.0 / float(kMapSide) * norm1(origin + tIn * direction);
     const bool crosses = fIn > 0.0 || (inFront && -fIn <= unit);
     if (fOut <= 0.0 && fOut < fIn && crosses) {
         ray.t = clamp((1.0 - dot(G, origin)) / dot(G, direction), tIn, tOut);
@@ -107,7 +108,7 @@ bool passTexel(vec4 plane, vec3 origin, vec3 direction, float tIn, float tOut, i
 /// Goes on along the piece from t = `from` to `to` [m], whose ends are those of endAt().
 bool passPiece(uint probe, vec3 origin, vec3 direction, vec2 t, vec3 start, vec3 end, inout bool inFront,
                inout MarchedRay ray) {
-    const int side = int(frame.marchedSide), blocks = int(marchedBlocks());
+    const int side = int(kMapSide), blocks = int(marchedBlocks());
     const vec2 a = (start.xy * 0.5 + 0.5) * float(side), b = (end.xy * 0.5 + 0.5) * float(side);
     const uint firstPlane = probe * uint(side * side), firstBlock = probe * uint(blocks * blocks + 1) + 1u;
     CellWalk coarse = beginWalk(a, b, 0.0, 1.0, MARCH_BLOCK, blocks);
@@ -168,7 +169,7 @@ MarchedRay marchProbe(uint probe, vec3 origin, vec3 direction, float from) {
     return MarchedRay(kMarchMiss, probe, far);
 }
 
-/// marchRay() of engine/field/march_ray.h.
+/// marchRay() of engine/techniques/probes/march_ray.h.
 MarchedRay marchRay(vec3 origin, vec3 direction) {
     const ivec3 last = ivec3(frame.gridSize) - 1;
     const vec3 x = clamp((origin - frame.gridLower) * frame.gridScale - 0.5, vec3(0), vec3(last));
@@ -216,13 +217,13 @@ vec3 levelRadiance(uint first, int side, vec2 square) {
     return sum;
 }
 
-/// probeRadiance() of engine/field/marched_maps.h [W m^-2 sr^-1].
+/// probeRadiance() of engine/techniques/probes/marched_maps.h [W m^-2 sr^-1].
 vec3 probeRadiance(uint probe, vec3 direction, float spread) {
-    const float texel = MARCH_HALF * 2.0 * sqrt(kPi) / float(frame.marchedSide);
+    const float texel = MARCH_HALF * 2.0 * sqrt(kPi) / float(kMapSide);
     const vec2 p = direction.xy / norm1(direction);
     const vec2 square = direction.z < 0.0 ? vec2(unfolded(1.0 - abs(p.y), direction.x), unfolded(1.0 - abs(p.x), direction.y)) : p;
     float level = log2(max(spread / texel, 1.0));
-    int side = int(frame.marchedSide);
+    int side = int(kMapSide);
     uint first = 0u; // of the level's texels
     while (level >= 1.0 && side > MARCH_COARSEST) {
         first += frame.gridCells * uint(side * side);
@@ -238,7 +239,7 @@ vec3 probeRadiance(uint probe, vec3 direction, float spread) {
 }
 
 /// Radiance that arrives in a lobe about unit `direction` of which half lies within `spread` [rad]: lookUp() and
-/// marchedRadiance() of engine/field/march_ray.h.
+/// marchedRadiance() of engine/techniques/probes/march_ray.h.
 vec3 marchedReflection(vec3 origin, vec3 direction, float spread) {
     const MarchedRay ray = marchRay(origin, direction);
     if (ray.probe == kNoProbe)
