@@ -6,7 +6,6 @@
 #include "engine/picture/field_lobe.h"
 #include "engine/picture/gather_tile.h"
 #include "engine/shading/direct_light.h"
-#include "engine/techniques/probes/march_ray.h"
 
 #include <concepts>
 #include <cstdint>

@@ -5,7 +5,6 @@
 #include "engine/field/field_packing.h"
 #include "engine/field/grid_depth.h"
 #include "engine/gpu/uploader.h"
-#include "engine/scene/surface/reflection_lobe.h"
 
 #include <algorithm>
 #include <cassert>
@@ -81,18 +80,6 @@ IndirectLight uploadIndirectLight(gpu::Device& device, const IndirectField& fiel
     const bool same = before.cells && before.cells == cells;
     return {.field = uploadField(device, field, same ? before.field->gridDepth : nullptr),
             .cells = cells};
-}
-
-gpu::Image uploadReflectionTable(gpu::Device& device) {
-    gpu::Image image(device, {.width = kReflectionNodes,
-                              .height = kReflectionNodes,
-                              .layers = kReflectionLayers,
-                              .format = VK_FORMAT_R32G32B32A32_SFLOAT,
-                              .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-                              .array = true,
-                              .name = "reflection table"});
-    gpu::Uploader(device).image(image, std::as_bytes(reflectionTable()));
-    return image;
 }
 
 void describeField(const GpuField& field, GeometryView& view) {

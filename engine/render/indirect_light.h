@@ -22,9 +22,6 @@ struct IndirectLight {
 IndirectLight uploadIndirectLight(gpu::Device& device, const IndirectField& field,
                                   const IndirectLight& before = {});
 
-/// Uploads limn::reflectionTable() as a sampled RGBA32F array image.
-gpu::Image uploadReflectionTable(gpu::Device& device);
-
 /// Fills in the members of `frame` that describe the grid, and the field's unit.
 void describeField(const GpuField& field, shared::GpuFrame& frame);
 /// Fills in how surfaces read the field, besides its grid.

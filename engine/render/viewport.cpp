@@ -5,6 +5,7 @@
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/timestamps.h"
 #include "engine/gpu/vulkan_error.h"
+#include "engine/render/frame_sets.h"
 #include "engine/render/indirect_light.h"
 #include "engine/render/passes/camera_view.h"
 #include "engine/render/passes/direct_pass.h"
@@ -44,17 +45,6 @@ static_assert(std::uint32_t(View::Direct) == VIEW_DIRECT && std::uint32_t(View::
               std::uint32_t(View::Albedo) == VIEW_ALBEDO &&
               std::uint32_t(View::Normals) == VIEW_NORMALS);
 
-constexpr std::array<VkDescriptorType, FRAME_BINDINGS> kFrameTypes = {
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,         VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-
-// A technique's own pass binds up to five beside them.
-static_assert(std::ranges::count(kFrameTypes, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER) + 5 ==
-              gpu::kStorageBuffers);
-
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
 constexpr std::uint32_t kSizeStep = 128;
 
@@ -81,7 +71,6 @@ double msSince(Clock::time_point start) {
 struct FrameSlot {
     gpu::Buffer frame; ///< mapped
     LightTable lights;
-    VkDescriptorSet set = VK_NULL_HANDLE;
     gpu::QueryPool queries;
     std::uint64_t submission = 0;
     std::uint32_t shadowMapsDrawn = 0;
@@ -104,12 +93,11 @@ struct Viewport::Impl {
     std::vector<ShadowSlot> assignShadows(const ShadowCamera* camera);
     void writeFrame(FrameSlot& slot, const ViewportOptions& options,
                     const std::vector<ShadowSlot>& shadows, glm::vec2 point);
-    void writeFrameSet(const FrameSlot& slot);
     void recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex, bool needed);
     void beginOnLinear(VkCommandBuffer cmd, const ViewportOptions& options);
-    void recordIndirect(VkCommandBuffer cmd, const FrameSlot& slot, const ViewportOptions& options,
+    void recordIndirect(VkCommandBuffer cmd, const ViewportOptions& options,
                         std::uint32_t slotIndex);
-    void recordDirect(VkCommandBuffer cmd, const FrameSlot& slot, const ViewportOptions& options);
+    void recordDirect(VkCommandBuffer cmd, const ViewportOptions& options, std::uint32_t slotIndex);
     void recordTonemap(VkCommandBuffer cmd, const ViewportOptions& options, std::uint32_t slot);
     void recordOverlay(VkCommandBuffer cmd, const GeometryView& view,
                        const ViewportOptions& options, std::uint32_t slot);
@@ -120,10 +108,7 @@ struct Viewport::Impl {
 
     gpu::Device& device;
     MaterialSet materials;
-    gpu::DescriptorSetLayout frameLayout;
-    gpu::DescriptorPool framePool;
-    gpu::Sampler tableSampler;
-    gpu::Image reflectionTable;
+    FrameSets sets;
     GeometryPasses geometry;
     SurfaceImages surfaces;
     SurfaceMaps surfaceMaps;
@@ -131,7 +116,6 @@ struct Viewport::Impl {
     NearPass nearPass;
     SkyPass sky;
     DirectPass direct;
-    gpu::Sampler texelSampler;
     MeanPass mean;
     TonemapPass tonemap;
     OverlayPass overlay;
@@ -161,26 +145,18 @@ struct Viewport::Impl {
 };
 
 Viewport::Impl::Impl(gpu::Device& d)
-    : device(d), materials(d), frameLayout(gpu::createSetLayout(d, kFrameTypes)),
-      framePool(gpu::createDescriptorPool(d, kFrameSlots, kFrameTypes)),
-      tableSampler(gpu::createSampler(d, {.mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST,
-                                          .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                          .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
-      reflectionTable(uploadReflectionTable(d)),
-      geometry(d, frameLayout.handle, materials.layout()), surfaces(d),
-      surfaceMaps(d, frameLayout, kFrameTypes), indirectPass(d, frameLayout.handle),
-      nearPass(d, frameLayout.handle), sky(d, frameLayout.handle), direct(d, frameLayout.handle),
-      texelSampler(gpu::createSampler(
-          d, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST})),
-      mean(d), tonemap(d), overlay(d), shadows(d), noIndirect(uploadIndirectLight(d, {})),
-      indirect(noIndirect), relightTimes(d, 1) {
+    : device(d), materials(d), sets(d), geometry(d, sets.layout().handle, materials.layout()),
+      surfaces(d), surfaceMaps(d, sets.layout(), kFrameTypes),
+      indirectPass(d, sets.layout().handle), nearPass(d, sets.layout().handle),
+      sky(d, sets.layout().handle), direct(d, sets.layout().handle), mean(d), tonemap(d),
+      overlay(d), shadows(d), noIndirect(uploadIndirectLight(d, {})), indirect(noIndirect),
+      relightTimes(d, 1) {
     for (FrameSlot& slot : slots) {
         slot.frame = gpu::Buffer(d, {.size = sizeof(GpuFrame),
                                      .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                      .memory = gpu::MemoryKind::Upload,
                                      .name = "frame"});
         writeLightTable(d, slot.lights, {}, {}, {});
-        slot.set = gpu::allocateSet(d, framePool, frameLayout);
         const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                          .queryCount = kTimestamps};
@@ -230,26 +206,6 @@ void Viewport::Impl::writeFrame(FrameSlot& slot, const ViewportOptions& options,
     std::memcpy(slot.frame.mapped, &frame, sizeof frame);
 }
 
-void Viewport::Impl::writeFrameSet(const FrameSlot& slot) {
-    const auto buffer = [&](std::uint32_t binding, const gpu::Buffer& bound) {
-        gpu::writeBuffer(device, slot.set, binding, kFrameTypes[binding], bound.handle);
-    };
-    const auto image = [&](std::uint32_t binding, const gpu::Image& bound) {
-        gpu::writeTexture(device, slot.set, binding, bound.view, texelSampler.handle);
-    };
-    buffer(FRAME_BLOCK, slot.frame);
-    buffer(FRAME_LIGHTS, slot.lights.lights);
-    buffer(FRAME_SHADOW_VIEWS, slot.lights.shadowViews);
-    gpu::writeTexture(device, slot.set, FRAME_SHADOW_ATLAS, shadows.atlasView(), shadows.sampler());
-    image(FRAME_SURFACE, surfaces.surface);
-    image(FRAME_DEPTH, surfaces.depth);
-    image(FRAME_EMITTED, surfaces.emitted);
-    image(FRAME_RECEIVER, surfaces.receiver);
-    gpu::writeTexture(device, slot.set, FRAME_REFLECTIONS, reflectionTable.view,
-                      tableSampler.handle);
-    buffer(FRAME_LOOKUP_SNAPS, scene.lookupSnaps ? scene.lookupSnaps : slot.lights.lights);
-}
-
 void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::uint32_t slotIndex,
                                    bool needed) {
     slot.shadowMapsDrawn = 0;
@@ -278,37 +234,38 @@ void Viewport::Impl::beginOnLinear(VkCommandBuffer cmd, const ViewportOptions& o
 }
 
 // Records everything except direct light.
-void Viewport::Impl::recordIndirect(VkCommandBuffer cmd, const FrameSlot& slot,
-                                    const ViewportOptions& options, std::uint32_t slotIndex) {
+void Viewport::Impl::recordIndirect(VkCommandBuffer cmd, const ViewportOptions& options,
+                                    std::uint32_t slotIndex) {
     discard(cmd, targets.linear, gpu::kFragmentRead);
     const std::array color = {attachment(targets.linear.view,
                                          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                          VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
     beginRendering(cmd, {options.width, options.height}, color, nullptr, false);
-    indirectPass.record(cmd, slot.set, options.view, options.diffuse, surfaces.drawn(), slotIndex);
+    indirectPass.record(cmd, sets.set(slotIndex), options.view, options.diffuse, surfaces.drawn(),
+                        slotIndex);
     vkCmdEndRendering(cmd);
     if (lightPass && showsBouncedLight(options.view)) {
         beginOnLinear(cmd, options);
-        lightPass->record({cmd, slot.set, options.view, options.diffuse});
+        lightPass->record({cmd, sets.set(slotIndex), options.view, options.diffuse});
         vkCmdEndRendering(cmd);
     }
     if (options.view == View::Lit && sky.active()) {
         beginOnLinear(cmd, options);
-        sky.record(cmd, slot.set, slotIndex);
+        sky.record(cmd, sets.set(slotIndex), slotIndex);
         vkCmdEndRendering(cmd);
     }
     if (nearPass.active(options)) {
         beginOnLinear(cmd, options);
-        nearPass.record(cmd, slot.set, options, *indirect.field, samples, slotIndex);
+        nearPass.record(cmd, sets.set(slotIndex), options, *indirect.field, samples, slotIndex);
         vkCmdEndRendering(cmd);
     }
 }
 
-void Viewport::Impl::recordDirect(VkCommandBuffer cmd, const FrameSlot& slot,
-                                  const ViewportOptions& options) {
+void Viewport::Impl::recordDirect(VkCommandBuffer cmd, const ViewportOptions& options,
+                                  std::uint32_t slotIndex) {
     if (showsDirectLight(options.view) && !lights.empty()) {
         beginOnLinear(cmd, options);
-        direct.record(cmd, slot.set, options.view);
+        direct.record(cmd, sets.set(slotIndex), options.view);
         vkCmdEndRendering(cmd);
     }
     gpu::imageBarrier(cmd, targets.linear.handle, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kColorWrite,
@@ -427,7 +384,7 @@ void Viewport::setIndirect(std::shared_ptr<LightPass> pass) {
 }
 
 VkDescriptorSetLayout Viewport::frameLayout() const {
-    return m_impl->frameLayout.handle;
+    return m_impl->sets.layout().handle;
 }
 
 void Viewport::setCoarseShadows(bool coarse) {
@@ -461,7 +418,7 @@ void Viewport::Impl::draw(const ViewportOptions& options) {
     if (samples > 0)
         view = throughPoint(view, point, options.width, options.height);
     writeFrame(slot, options, shadowSlots, point);
-    writeFrameSet(slot);
+    sets.write(slotIndex, slot.frame, slot.lights, shadows, surfaces, scene.lookupSnaps);
     indirectPass.bind(*indirect.field, slotIndex);
     materials.writeFactors(slotIndex);
     slot.uploadMs = pendingUploadMs + msSince(start);
@@ -473,12 +430,13 @@ void Viewport::Impl::draw(const ViewportOptions& options) {
     mark(kBegin);
     recordShadows(cmd, slot, slotIndex, lit);
     mark(kShadowsDone);
-    stats.geometryDrawn += surfaces.record(cmd, geometry, scene, materials, view,
-                                           {options.width, options.height}, slotIndex, slot.set);
+    stats.geometryDrawn +=
+        surfaces.record(cmd, geometry, scene, materials, view, {options.width, options.height},
+                        slotIndex, sets.set(slotIndex));
     mark(kGeometryDone);
-    recordIndirect(cmd, slot, options, slotIndex);
+    recordIndirect(cmd, options, slotIndex);
     mark(kIndirectDone);
-    recordDirect(cmd, slot, options);
+    recordDirect(cmd, options, slotIndex);
     mark(kShadeDone);
     if (samples > 0)
         mean.record(cmd, targets.linear, targets.mean, samples, {options.width, options.height},
@@ -558,8 +516,8 @@ void Viewport::drawSurfaceMaps(std::span<const SurfaceMapView> views, glm::uvec2
     const auto slotIndex = std::uint32_t(v.frames % kFrameSlots); // the next frame's
     v.device.wait(v.slots[slotIndex].submission);
     v.materials.writeFactors(slotIndex);
-    v.surfaceMaps.draw(v.geometry, v.scene, v.materials, v.reflectionTable.view, slotIndex, views,
-                       size, read);
+    v.surfaceMaps.draw(v.geometry, v.scene, v.materials, v.sets.filler(), slotIndex, views, size,
+                       read);
 }
 
 VkImageView Viewport::colorView() const {

@@ -18,8 +18,8 @@ bool lightsOnDevice(const Technique& technique);
 Result<std::unique_ptr<Lighting>> lightOnDevice(const Technique& technique, gpu::Device& device,
                                                 Viewport& viewport, const Prepared& prepared);
 
-/// Shows light of the CPU in a viewport: its lightmap and grid, and its parts by the technique's own
-/// pass. `technique`: whose light it is; null where the field has no parts.
+/// Shows light of the CPU in a viewport: its lightmap and grid, and its parts by the technique's
+/// own pass. `technique`: whose light it is; null where the field has no parts.
 void showLight(const Technique* technique, gpu::Device& device, Viewport& viewport,
                const IndirectField& field);
 
