@@ -126,7 +126,7 @@ vec3 bouncedLight(PackedSurface s, bool fromGrid, bool apart) {
     if ((kFeatures & FEATURE_REFLECTED_APART) != 0 && apart)
         return diffuse;
     const float seen = fromGrid ? 1.0 : hemisphereSeen(reflection.factors, dot(axis, s.geometricNormal));
-    return diffuse + (F0 * reflection.share.x + reflection.share.y) * field.lobe / seen;
+    return diffuse + (F0 * reflection.share.x + reflection.share.y) * (field.lobe / seen);
 }
 
 void main() {
