@@ -52,6 +52,9 @@ void describeMaterial(Fields& fields, T& m) {
     fields("alphaCutoff", m.alphaCutoff, kNotNegative);
     fields("doubleSided", m.doubleSided);
     fields("normalScale", m.normalScale);
+    fields.unless(0.f, "transmission", m.transmission, kUnitRange);
+    fields.unless(1.5f, "ior", m.ior, FieldRange{1});
+    fields.unless(0.f, "thickness", m.thickness, kNotNegative);
     fields.object("baseColorTexture", m.baseColorTexture, texture);
     fields.object("metallicRoughnessTexture", m.metallicRoughnessTexture, texture);
     fields.object("normalTexture", m.normalTexture, texture);

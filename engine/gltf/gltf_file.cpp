@@ -21,9 +21,10 @@ namespace limn {
 namespace fs = std::filesystem;
 
 /// Required extensions that are supported.
-static constexpr std::array<std::string_view, 5> kKnownExtensions = {
-    "EXT_mesh_gpu_instancing", "KHR_lights_punctual", "KHR_materials_emissive_strength",
-    "KHR_mesh_quantization", "KHR_texture_transform"};
+static constexpr std::array<std::string_view, 8> kKnownExtensions = {
+    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",        "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_transmission", "KHR_materials_volume",
+    "KHR_mesh_quantization",   "KHR_texture_transform"};
 
 /// tinygltf descends recursively into extras.
 static constexpr int kMaxJsonDepth = 128;

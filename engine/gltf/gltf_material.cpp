@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -88,7 +89,8 @@ static TextureRef readTexture(const tinygltf::Model& model, const Info& info,
 /// Clamps `value` to [lower, upper] and reports a repair if it was outside.
 static float ranged(double value, float lower, float upper, GltfRepairs& repairs) {
     const float inside = std::clamp(float(value), lower, upper);
-    if (double(inside) != value && std::abs(double(inside) - value) > 1e-6 * std::abs(value))
+    const double change = std::abs(double(inside) - value);
+    if (!std::isfinite(value) || change > 1e-6 * std::abs(value))
         repairs.add("material numbers out of range brought into it");
     return inside;
 }
@@ -103,6 +105,29 @@ static glm::vec3 readEmission(const tinygltf::Material& source, GltfRepairs& rep
     for (int c = 0; c < 3; ++c)
         emission[c] = ranged(double(emission[c]), 0, kMaxLight, repairs);
     return emission;
+}
+
+/// Sets how light passes through: KHR_materials_transmission, _ior and _volume, of which textures
+/// and absorption are left out.
+static void readTransmission(const tinygltf::Material& source, Material& m, GltfRepairs& repairs) {
+    if (const auto* e = extension(source.extensions, "KHR_materials_transmission")) {
+        m.transmission = ranged(double(number(member(*e, "transmissionFactor"), 0)), 0, 1, repairs);
+        repairs.add("transmission textures left out", member(*e, "transmissionTexture") ? 1 : 0);
+    }
+    if (const auto* e = extension(source.extensions, "KHR_materials_ior")) {
+        const float ior = number(member(*e, "ior"), m.ior);
+        if (ior == 0) // the extension's sign for a surface that reflects everything
+            repairs.add("indices of refraction of 0 taken as 1.5");
+        else
+            m.ior = ranged(double(ior), 1, std::numeric_limits<float>::max(), repairs);
+    }
+    if (const auto* e = extension(source.extensions, "KHR_materials_volume")) {
+        m.thickness = ranged(double(number(member(*e, "thicknessFactor"), 0)), 0,
+                             std::numeric_limits<float>::max(), repairs);
+        const bool absorbs = member(*e, "attenuationDistance") || member(*e, "attenuationColor");
+        repairs.add("absorption within bodies left out", absorbs ? 1 : 0);
+        repairs.add("thickness textures left out", member(*e, "thicknessTexture") ? 1 : 0);
+    }
 }
 
 Material readMaterial(const tinygltf::Model& model, std::size_t index, GltfRepairs& repairs) {
@@ -125,6 +150,7 @@ Material readMaterial(const tinygltf::Model& model, std::size_t index, GltfRepai
     m.alphaCutoff = ranged(source.alphaCutoff, 0, 1e30f, repairs);
     m.doubleSided = source.doubleSided;
     m.normalScale = float(source.normalTexture.scale);
+    readTransmission(source, m, repairs);
     m.baseColorTexture = readTexture(model, pbr.baseColorTexture, repairs);
     m.metallicRoughnessTexture = readTexture(model, pbr.metallicRoughnessTexture, repairs);
     m.normalTexture = readTexture(model, source.normalTexture, repairs);

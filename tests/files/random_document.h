@@ -105,6 +105,9 @@ private:
             m.alphaCutoff = notNegative();
             m.doubleSided = coin();
             m.normalScale = number();
+            m.transmission = unit();
+            m.ior = std::max(1.f, notNegative());
+            m.thickness = notNegative();
             m.baseColorTexture = texture();
             m.metallicRoughnessTexture = texture();
             m.normalTexture = texture();

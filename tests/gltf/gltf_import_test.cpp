@@ -356,6 +356,63 @@ TEST(GltfImport, MaterialsFollowTheFileAndItsDefaults) {
     EXPECT_EQ(m.roughness, 0.6f);
 }
 
+/// The material of a file that gives its only material these extensions.
+static ImportedScene withExtensions(const Json& extensions) {
+    GltfBuilder b = triangleScene();
+    b.json["materials"] = {{{"extensions", extensions}}};
+    b.json["meshes"][0]["primitives"][0]["material"] = 0;
+    for (const auto& [name, value] : extensions.items())
+        b.json["extensionsRequired"].push_back(name);
+    b.json["extensionsUsed"] = b.json["extensionsRequired"];
+    return imported(b);
+}
+
+TEST(GltfImport, GlassHasItsTransmissionIndexAndThickness) {
+    const ImportedScene scene =
+        withExtensions({{"KHR_materials_transmission", {{"transmissionFactor", 0.75}}},
+                        {"KHR_materials_ior", {{"ior", 1.33}}},
+                        {"KHR_materials_volume", {{"thicknessFactor", 0.02}}}});
+    const Material m = onlyObject<Material>(scene);
+    EXPECT_EQ(m.transmission, 0.75f);
+    EXPECT_EQ(m.ior, 1.33f);
+    EXPECT_EQ(m.thickness, 0.02f);
+    EXPECT_FALSE(hasRepair(scene, "left out"));
+    EXPECT_FALSE(hasRepair(scene, "ignored"));
+    const Json empty = Json::object();
+    const Material plain =
+        onlyObject<Material>(withExtensions({{"KHR_materials_transmission", empty},
+                                             {"KHR_materials_ior", empty},
+                                             {"KHR_materials_volume", empty}}));
+    EXPECT_EQ(plain.transmission, 0);
+    EXPECT_EQ(plain.ior, 1.5f);
+    EXPECT_EQ(plain.thickness, 0);
+}
+
+TEST(GltfImport, NumbersOfGlassOutOfRangeAreRepaired) {
+    const ImportedScene scene =
+        withExtensions({{"KHR_materials_transmission", {{"transmissionFactor", 7}}},
+                        {"KHR_materials_ior", {{"ior", 0.5}}},
+                        {"KHR_materials_volume", {{"thicknessFactor", -1e39}}}});
+    const Material m = onlyObject<Material>(scene);
+    EXPECT_EQ(m.transmission, 1);
+    EXPECT_EQ(m.ior, 1);
+    EXPECT_EQ(m.thickness, 0);
+    EXPECT_TRUE(hasRepair(scene, "3 material numbers out of range"));
+    const ImportedScene mirror = withExtensions({{"KHR_materials_ior", {{"ior", 0}}}});
+    EXPECT_EQ(onlyObject<Material>(mirror).ior, 1.5f);
+    EXPECT_TRUE(hasRepair(mirror, "indices of refraction of 0"));
+}
+
+TEST(GltfImport, WhatGlassLacksIsNamed) {
+    const ImportedScene scene =
+        withExtensions({{"KHR_materials_transmission",
+                         {{"transmissionFactor", 1}, {"transmissionTexture", {{"index", 0}}}}},
+                        {"KHR_materials_volume",
+                         {{"thicknessTexture", {{"index", 0}}}, {"attenuationDistance", 0.1}}}});
+    for (const char* repair : {"1 transmission textures", "1 thickness textures", "1 absorption"})
+        EXPECT_TRUE(hasRepair(scene, repair)) << repair;
+}
+
 TEST(GltfImport, APrimitiveWithoutMaterialGetsAPlainOneAfterTheFiles) {
     GltfBuilder b = triangleScene();
     b.json["materials"] = {{{"name", "unused"}}};

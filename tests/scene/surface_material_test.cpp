@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/scene.h"
 
+#include "engine/scene/surface/dielectric.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -187,6 +189,35 @@ TEST(SurfaceMaterial, VertexColorsMultiplyTheBaseColor) {
     EXPECT_NEAR(albedo.x, 0.125f, 1e-6);
     EXPECT_NEAR(albedo.y, 0.125f, 1e-6);
     EXPECT_NEAR(albedo.z, 0.25f, 1e-6);
+}
+
+TEST(SurfaceMaterial, TransmissionIsTakenFromTheDiffuseShare) {
+    Material m;
+    m.baseColor = {0.8f, 0.4f, 0.2f, 1};
+    m.metallic = 0.5f;
+    m.transmission = 0.75f;
+    m.ior = 1.3f;
+    const Scene scene = triangleOf(m);
+    const Instance& instance = scene.instances[0];
+    const glm::vec3 albedo = surfaceMaterial(scene, instance, 0, 0.2f, 0.3f).albedo;
+    EXPECT_NEAR(albedo.x, 0.1f, 1e-6f); // 0.8 * 0.5 * 0.25
+    EXPECT_NEAR(albedo.y, 0.05f, 1e-6f);
+    const Transmission t = surfaceTransmission(scene, instance, 0, 0.2f, 0.3f);
+    EXPECT_NEAR(t.tint.x, 0.3f, 1e-6f); // 0.8 * 0.5 * 0.75
+    EXPECT_NEAR(t.tint.z, 0.075f, 1e-6f);
+    EXPECT_EQ(t.ior, 1.3f);
+    EXPECT_TRUE(t.isThin);
+}
+
+TEST(SurfaceMaterial, OnlyAThickMaterialBendsLight) {
+    Material m;
+    m.transmission = 1;
+    m.thickness = 0.01f;
+    const Scene body = triangleOf(m);
+    EXPECT_FALSE(surfaceTransmission(body, body.instances[0], 0, 0, 0).isThin);
+    m.transmission = 0;
+    const Scene opaque = triangleOf(m);
+    EXPECT_FALSE(surfaceTransmission(opaque, opaque.instances[0], 0, 0, 0));
 }
 
 } // namespace

@@ -40,7 +40,7 @@ struct Flipbook {
 std::uint32_t frameAt(const Flipbook& flipbook, double seconds);
 
 /// glTF metallic-roughness. Factors multiply textures. Transport treats it as Lambertian with
-/// albedo = min(baseColor * (1 - metallic), 0.99).
+/// albedo = min(baseColor * (1 - metallic) * (1 - transmission), 0.99).
 struct Material {
     std::string name;
     glm::vec4 baseColor{1}; ///< linear, alpha in w; each in [0, 1]
@@ -51,6 +51,12 @@ struct Material {
     float alphaCutoff = 0.5f;
     bool doubleSided = false;
     float normalScale = 1;
+    float transmission = 0; ///< share of the dielectric part that passes light on [0, 1]
+    float ior = 1.5f;       ///< index of refraction of the dielectric, >= 1
+    /// As in KHR_materials_volume, in units of the mesh. 0: a thin sheet, which does not bend
+    /// light. Above 0, the mesh bounds a body, and rays find their own way through it: only
+    /// programs that trace no rays read the number itself.
+    float thickness = 0;
     TextureRef baseColorTexture;         ///< sRGB
     TextureRef metallicRoughnessTexture; ///< linear: roughness in G, metallic in B
     TextureRef normalTexture;            ///< linear, tangent space

@@ -2,6 +2,7 @@
 #include "engine/scene/surface/receiver_bands.h"
 
 #include "engine/math/lobe.h"
+#include "engine/scene/surface/dielectric.h"
 #include "engine/scene/surface/reflection_lobe.h"
 
 #include <algorithm>
@@ -93,9 +94,9 @@ int bandsOf(const Gloss& gloss, int maxBands) {
 int receiverBands(const Assets& assets, const Material& m, int maxBands) {
     const auto bandsAt = [&](float roughness, float metallic) {
         const float metal = m.metallic * metallic;
-        return bandsOf(
-            {glm::mix(glm::vec3(0.04f), glm::vec3(m.baseColor), metal), m.roughness * roughness},
-            maxBands);
+        const glm::vec3 F0 =
+            glm::mix(glm::vec3(dielectricF0(m.ior)), glm::vec3(m.baseColor), metal);
+        return bandsOf({F0, m.roughness * roughness}, maxBands);
     };
     const std::int32_t image = m.metallicRoughnessTexture.image;
     if (image < 0 || std::size_t(image) >= assets.images.size() ||

@@ -16,8 +16,8 @@ struct Gloss {
     float roughness = 1;
 };
 
-/// Gloss at barycentrics (u, v) of `triangle`: F0 is 0.04 for dielectrics and the base colour for
-/// metals.
+/// Gloss at barycentrics (u, v) of `triangle`: F0 is dielectricF0() of the index of refraction for
+/// dielectrics, 0.04 by default, and the base colour for metals.
 Gloss surfaceGloss(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u,
                    float v);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/scene/scene.h"
+#include "engine/scene/surface/dielectric.h"
 #include "engine/scene/surface/specular.h"
 
 #include <array>
@@ -96,7 +97,7 @@ static SurfaceMaterial materialOver(const Scene& scene, const Instance& instance
     if (metallic > 0)
         metallic *= point.texture(assets, m.metallicRoughnessTexture, TexelKind::Data, share).z;
     SurfaceMaterial s;
-    s.albedo = glm::clamp(glm::vec3(base) * (1 - metallic), 0.f, kMaxAlbedo);
+    s.albedo = glm::clamp(glm::vec3(base) * (1 - metallic) * (1 - m.transmission), 0.f, kMaxAlbedo);
     s.emission = m.emission;
     if (m.emission != glm::vec3(0))
         s.emission *= glm::vec3(point.texture(assets, m.emissiveTexture, TexelKind::Color, share));
@@ -116,8 +117,7 @@ Gloss surfaceGloss(const Scene& scene, const Instance& instance, std::uint32_t t
     const TrianglePoint point = pointOf(scene.meshOf(instance), triangle, u, v);
     const glm::vec4 texel =
         point.texture(assets, m.metallicRoughnessTexture, TexelKind::Data, 0); // 1 without one
-    Gloss gloss;
-    gloss.roughness = m.roughness * texel.y;
+    Gloss gloss{glm::vec3(dielectricF0(m.ior)), m.roughness * texel.y};
     const float metallic = m.metallic * texel.z;
     if (metallic > 0) {
         const glm::vec4 base = m.baseColor * point.interpolate(point.mesh.colors, glm::vec4(1)) *
@@ -125,6 +125,23 @@ Gloss surfaceGloss(const Scene& scene, const Instance& instance, std::uint32_t t
         gloss.F0 = glm::mix(gloss.F0, glm::vec3(base), metallic);
     }
     return gloss;
+}
+
+Transmission surfaceTransmission(const Scene& scene, const Instance& instance,
+                                 std::uint32_t triangle, float u, float v) {
+    const Material& m = scene.materialOf(instance);
+    if (m.transmission == 0)
+        return {};
+    const Assets& assets = *scene.assets;
+    const TrianglePoint point = pointOf(scene.meshOf(instance), triangle, u, v);
+    const glm::vec4 texel = point.texture(assets, m.metallicRoughnessTexture, TexelKind::Data, 0);
+    const glm::vec4 base = m.baseColor * point.interpolate(point.mesh.colors, glm::vec4(1)) *
+                           point.texture(assets, m.baseColorTexture, TexelKind::Color, 0);
+    const float share = (1 - m.metallic * texel.z) * m.transmission;
+    return {.tint = glm::clamp(glm::vec3(base) * share, 0.f, 1.f),
+            .ior = m.ior,
+            .isThin = m.thickness == 0,
+            .roughness = m.roughness * texel.y};
 }
 
 SurfaceMaterial surfaceMaterialOver(const Scene& scene, const Instance& instance,
