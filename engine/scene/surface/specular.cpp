@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/surface/specular.h"
 
+#include "engine/math/fresnel.h"
 #include "engine/math/sampling.h"
 
 #include <algorithm>
@@ -23,12 +24,6 @@ float alphaOf(float roughness) {
 /// Hammon's approximation of the height-correlated Smith term over 4 NoL NoV.
 float visibility(float alpha, float NoL, float NoV) {
     return 0.5f / glm::mix(2 * NoL * NoV, NoL + NoV, alpha);
-}
-
-/// Schlick's Fresnel reflectance.
-glm::vec3 fresnel(glm::vec3 F0, float VoH) {
-    const float away = 1 - VoH;
-    return F0 + (1.f - F0) * (away * away * away * away * away);
 }
 
 float ggx(float a2, float NoH) {
@@ -73,7 +68,22 @@ glm::vec3 specularBrdf(const Gloss& gloss, glm::vec3 n, glm::vec3 toEye, glm::ve
     const float NoH = std::clamp(glm::dot(n, h), 0.f, 1.f),
                 VoH = std::clamp(glm::dot(toEye, h), 0.f, 1.f);
     const float alpha = alphaOf(gloss.roughness);
-    return ggx(alpha * alpha, NoH) * visibility(alpha, NoL, NoV) * fresnel(gloss.F0, VoH);
+    return ggx(alpha * alpha, NoH) * visibility(alpha, NoL, NoV) * schlickFresnel(gloss.F0, VoH);
+}
+
+/// V NoL / pdf with pdf = G_1 D VoH / NoV / (4 VoH), where the nearly singular D cancels.
+static float shareOfFacet(float alpha, float NoV, float NoL) {
+    return 2 * NoL * visibility(alpha, NoL, NoV) * twiceUnmasked(alpha * alpha, NoV);
+}
+
+glm::vec3 sampleFacet(float roughness, glm::vec3 n, glm::vec3 toEye, glm::vec2 u) {
+    const glm::mat3 basis = basisAround(n);
+    return basis * visibleNormal(localEye(basis, toEye), alphaOf(roughness), u);
+}
+
+float facetShare(float roughness, float NoV, float NoL) {
+    return NoL > 0 ? std::min(shareOfFacet(alphaOf(roughness), std::max(NoV, kMinNoV), NoL), 1.f)
+                   : 0;
 }
 
 SpecularSample sampleSpecular(const Gloss& gloss, glm::vec3 n, glm::vec3 toEye, glm::vec2 u) {
@@ -87,9 +97,7 @@ SpecularSample sampleSpecular(const Gloss& gloss, glm::vec3 n, glm::vec3 toEye, 
     if (!(l.z > 0))
         return sample;
     sample.toLight = basis * glm::normalize(l);
-    // f NoL / pdf with pdf = G_1 D VoH / NoV / (4 VoH); the nearly singular D cancels.
-    sample.weight = fresnel(gloss.F0, VoH) *
-                    (2 * l.z * visibility(alpha, l.z, v.z) * twiceUnmasked(alpha * alpha, v.z));
+    sample.weight = schlickFresnel(gloss.F0, VoH) * shareOfFacet(alpha, v.z, l.z);
     return sample;
 }
 

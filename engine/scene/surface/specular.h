@@ -39,6 +39,14 @@ struct SpecularSample {
 /// Heitz. Sampling the GGX Distribution of Visible Normals. 2018
 SpecularSample sampleSpecular(const Gloss& gloss, glm::vec3 n, glm::vec3 toEye, glm::vec2 u);
 
+/// The unit normal of a microfacet that is visible from direction `toEye`, as sampleSpecular()
+/// selects it.
+glm::vec3 sampleFacet(float roughness, glm::vec3 n, glm::vec3 toEye, glm::vec2 u);
+
+/// Share of light that leaves a facet visible at cosine NoV in a direction at cosine NoL to the
+/// normal, on either side, and is masked by no other facet; in [0, 1], 0 for NoL <= 0.
+float facetShare(float roughness, float NoV, float NoL);
+
 /// Probability density of sampleSpecular() [sr^-1]. It integrates to less than 1, because some
 /// facets reflect below the horizon.
 float specularPdf(float roughness, glm::vec3 n, glm::vec3 toEye, glm::vec3 toLight);

@@ -2,6 +2,7 @@
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/surface/dielectric.h"
+#include "engine/scene/surface/metal.h"
 #include "engine/scene/surface/specular.h"
 
 #include <array>
@@ -139,6 +140,7 @@ Transmission surfaceTransmission(const Scene& scene, const Instance& instance,
                            point.texture(assets, m.baseColorTexture, TexelKind::Color, 0);
     const float share = (1 - m.metallic * texel.z) * m.transmission;
     return {.tint = glm::clamp(glm::vec3(base) * share, 0.f, 1.f),
+            .share = share,
             .ior = m.ior,
             .isThin = m.thickness == 0,
             .roughness = m.roughness * texel.y};
@@ -148,6 +150,19 @@ SurfaceMaterial surfaceMaterialOver(const Scene& scene, const Instance& instance
                                     std::uint32_t triangle, float u, float v, float area) {
     const float whole = triangleWorldArea(scene, instance, triangle);
     return materialOver(scene, instance, triangle, u, v, whole > 0 ? area / whole : 0);
+}
+
+Metal surfaceMetal(const Scene& scene, const Instance& instance, std::uint32_t triangle, float u,
+                   float v) {
+    const Material& m = scene.materialOf(instance);
+    if (!(m.metallic > 0))
+        return {};
+    const Assets& assets = *scene.assets;
+    const TrianglePoint point = pointOf(scene.meshOf(instance), triangle, u, v);
+    const glm::vec4 texel = point.texture(assets, m.metallicRoughnessTexture, TexelKind::Data, 0);
+    const glm::vec4 base = m.baseColor * point.interpolate(point.mesh.colors, glm::vec4(1)) *
+                           point.texture(assets, m.baseColorTexture, TexelKind::Color, 0);
+    return {glm::clamp(glm::vec3(base), 0.f, 1.f), m.metallic * texel.z, m.roughness * texel.y};
 }
 
 } // namespace limn
