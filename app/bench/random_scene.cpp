@@ -75,6 +75,8 @@ void RandomScene::changeMaterial(Material& m) {
     m.baseColor = {number(), number(), number(), m.baseColor.w};
     m.metallic = number();
     m.roughness = number();
+    m.transmission = number() < 0.2f ? number() : 0;
+    m.ior = number() < 0.2f ? 1 + number() : 1.5f;
     m.emission = number() < 0.2f ? glm::vec3(number(), number(), number()) * 5.f : glm::vec3(0);
 }
 

@@ -49,6 +49,9 @@ static void copy(const Material& before, const Material& after, Material& other)
     copyField(before.alphaCutoff, after.alphaCutoff, other.alphaCutoff);
     copyField(before.doubleSided, after.doubleSided, other.doubleSided);
     copyField(before.normalScale, after.normalScale, other.normalScale);
+    copyField(before.transmission, after.transmission, other.transmission);
+    copyField(before.ior, after.ior, other.ior);
+    copyField(before.thickness, after.thickness, other.thickness);
     copyField(before.emissiveFlipbook.columns, after.emissiveFlipbook.columns,
               other.emissiveFlipbook.columns);
     copyField(before.emissiveFlipbook.rows, after.emissiveFlipbook.rows,

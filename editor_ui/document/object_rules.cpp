@@ -50,7 +50,8 @@ static bool valid(const Material& m) {
     const glm::vec4 c = m.baseColor;
     return inUnit(c.x) && inUnit(c.y) && inUnit(c.z) && inUnit(c.w) && inUnit(m.metallic) &&
            inUnit(m.roughness) && inUnit(m.alphaCutoff) && isLight(m.emission) &&
-           valid(m.emissiveFlipbook) &&
+           inUnit(m.transmission) && std::isfinite(m.ior) && m.ior >= 1 &&
+           atLeastZero(m.thickness) && valid(m.emissiveFlipbook) &&
            (m.emissiveTexture.rotation == 0 ||
             m.emissiveFlipbook.columns == m.emissiveFlipbook.rows);
 }

@@ -122,6 +122,33 @@ static void surfaceRows(FieldEdit& edit, Material& material) {
     fieldEdited(edit, "Double sided");
 }
 
+static void glassRows(FieldEdit& edit, Material& material) {
+    fieldLabel<Material>(edit, "Transmission",
+                         "Share of light that passes through and is tinted by the base colour; it "
+                         "is taken from the diffuse share. Pictures on the CPU show what is "
+                         "behind; the view here does not [0, 1]",
+                         &Material::transmission);
+    ImGui::SliderFloat("##transmission", &material.transmission, 0, 1, "%.2f",
+                       ImGuiSliderFlags_AlwaysClamp);
+    fieldEdited(edit, "Transmission");
+    fieldLabel<Material>(edit, "Index of refraction",
+                         "1: air, 1.33: water, 1.5: glass, 2.42: diamond. More reflects more, also "
+                         "where nothing is transmitted [1, ...)",
+                         &Material::ior);
+    ImGui::DragFloat("##ior", &material.ior, 0.005f, 1, 100, "%.3f", ImGuiSliderFlags_AlwaysClamp);
+    fieldEdited(edit, "Index of refraction");
+    if (material.transmission == 0)
+        return;
+    bool isBody = material.thickness > 0;
+    fieldLabel<Material>(edit, "Solid body",
+                         "On: the mesh is closed and filled, and bends light. Off: a thin sheet, "
+                         "which does not",
+                         [](const Material& m) { return m.thickness > 0; });
+    if (ImGui::Checkbox("##body", &isBody))
+        material.thickness = isBody ? 1.f : 0.f;
+    fieldEdited(edit, "Solid body");
+}
+
 static void emissionRows(FieldEdit& edit, Material& material) {
     if (isMixed<Material>(edit, &Material::emission))
         markMixed();
@@ -134,6 +161,8 @@ static void emissionRows(FieldEdit& edit, Material& material) {
 void materialSection(FieldEdit& edit, Material& material) {
     if (card(edit.state, "Surface"))
         surfaceRows(edit, material);
+    if (card(edit.state, "Glass"))
+        glassRows(edit, material);
     if (card(edit.state, "Emission"))
         emissionRows(edit, material);
     if (!card(edit.state, "Textures"))

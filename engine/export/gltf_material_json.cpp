@@ -56,6 +56,19 @@ Json GltfMaterials::texture(const TextureRef& ref) {
     return info;
 }
 
+void GltfMaterials::putTransmission(const Material& source, Json& json) {
+    const auto put = [&](const char* name, const char* field, float value) {
+        extensions.insert(name);
+        json["extensions"][name][field] = value;
+    };
+    if (source.transmission > 0)
+        put("KHR_materials_transmission", "transmissionFactor", source.transmission);
+    if (source.ior != Material{}.ior)
+        put("KHR_materials_ior", "ior", source.ior);
+    if (source.thickness > 0)
+        put("KHR_materials_volume", "thicknessFactor", source.thickness);
+}
+
 std::size_t GltfMaterials::index(const Material& source, std::uint32_t number, bool oneSided,
                                  std::uint32_t page) {
     const auto [known, isNew] = m_known.try_emplace({number, oneSided, page}, materials.size());
@@ -87,6 +100,7 @@ std::size_t GltfMaterials::index(const Material& source, std::uint32_t number, b
         extensions.insert("KHR_materials_emissive_strength");
         json["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
     }
+    putTransmission(source, json);
     if (source.alphaMode == AlphaMode::Mask) {
         json["alphaMode"] = "MASK";
         json["alphaCutoff"] = source.alphaCutoff;

@@ -38,6 +38,7 @@ private:
     std::map<std::tuple<std::uint32_t, bool, std::uint32_t>, std::size_t> m_known;
 
     Json texture(const TextureRef& ref);
+    void putTransmission(const Material& source, Json& json);
 };
 
 } // namespace limn

@@ -183,6 +183,9 @@ void putScene(ObjectWriter& json, const ExportScene& in) {
              {"metallic", m.metallic},
              {"roughness", m.roughness},
              {"emission", vectorJson(m.emission)},
+             {"transmission", m.transmission},
+             {"ior", m.ior},
+             {"thickness", m.thickness},
              {"doubleSided", m.doubleSided}});
     json.member("origin", vectorJson(in.document.origin));
     json.member("bounds", boundsOf(in.scene.bounds));

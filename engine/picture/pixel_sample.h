@@ -12,12 +12,15 @@ namespace limn {
 /// Sample s of a pixel of a picture that is drawn on the CPU from a field.
 struct PixelSample {
     Ray ray;
-    LightNumbers light; ///< for direct light
-    Sampler near;       ///< for walkNearLight()
-    Sampler gather;     ///< for FinalGather
+    LightNumbers light;          ///< for direct light
+    Sampler near;                ///< for walkNearLight()
+    Sampler gather;              ///< for FinalGather
+    Sampler passing;             ///< for passRay(), two dimensions a crossing
+    std::uint32_t crossings = 0; ///< transmissive surfaces between the eye and `ray`
 
     /// These seeds make the numbers of those rays independent of others.
-    static constexpr std::uint32_t kNearSeed = 0x6e656172, kGatherSeed = 0x67617468;
+    static constexpr std::uint32_t kNearSeed = 0x6e656172, kGatherSeed = 0x67617468,
+                                   kPassingSeed = 0x70617373;
 
     /// Makes sample s of the pixel whose number is y * width + x.
     PixelSample(const PixelRays& rays, std::uint32_t seed, std::uint32_t pixel, std::uint32_t s) {
@@ -28,6 +31,15 @@ struct PixelSample {
         light = {sampler.pair(1).x, sampler.pair(kOnLightDimension)};
         near = {mixBits(sampler.seed, kNearSeed), s};
         gather = {mixBits(sampler.seed, kGatherSeed), s};
+        passing = {mixBits(sampler.seed, kPassingSeed), s};
+    }
+
+    /// The sample as it goes on behind a transmissive surface.
+    PixelSample behind(const Ray& passed) const {
+        PixelSample sample = *this;
+        sample.ray = passed;
+        ++sample.crossings;
+        return sample;
     }
 };
 

@@ -6,6 +6,7 @@
 #include "engine/picture/light_sink.h"
 #include "engine/picture/near_light.h"
 #include "engine/picture/pixel_sample.h"
+#include "engine/shading/passed_ray.h"
 #include "engine/shading/surface_point.h"
 
 #include <cstdint>
@@ -37,7 +38,7 @@ struct PixelWalk {
     const FieldPart* reflecting = nullptr; ///< of the field, for glossy receivers
     std::vector<bool> glossy;              ///< where there is one: the materials of these
     NearLight near;
-    bool gathers = false; ///< the field's diffuse light is left to FinalGather
+    bool gathers = false; ///< the field's diffuse light is left to FinalGather, but behind glass
 
     FieldPoint lookup(const Hit& hit, const SurfacePoint& p) const {
         return fieldPoint(field, layout, trace.scene(), hit, p);
@@ -51,7 +52,7 @@ PixelWalk pixelWalk(const TraceScene& trace, const IndirectField& field,
 template <PixelSink Sink>
 void walkBounced(const PixelWalk& w, const PixelSample& sample, const Hit& hit,
                  const SurfacePoint& p, Sink& sink) {
-    if (w.field.empty() || w.gathers)
+    if (w.field.empty() || (w.gathers && sample.crossings == 0))
         return;
     sink.fieldIrradiance(w.lookup(hit, p), glm::vec3(1), GatherPart::Shown);
     sink.scaled(glm::vec3(1), [&] { walkNearLight(w.near, hit, p, sample.near, sink); });
@@ -85,18 +86,40 @@ void walkRadiance(const PixelWalk& w, const PixelSample& sample, const Hit& hit,
     walkReflection(w, hit, g, sink);
 }
 
-/// Walks the light that one sample of a pixel shows: hands each of its terms to a sink
-/// (light_sink.h). The sum of the terms is an unbiased estimate of `w.sum`, but for the diffuse
-/// light that is gathered.
+/// Walks the radiance that reaches the eye along the sample's ray, and through transmissive
+/// surfaces.
 template <PixelSink Sink>
-void walkPixel(const PixelWalk& w, const PixelSample& sample, Sink& sink) {
+void walkSight(const PixelWalk& w, const PixelSample& sample, Sink& sink) {
     const Hit hit = w.trace.closestHit(sample.ray);
     if (!hit) {
-        if (w.sum == PixelSum::Radiance)
-            sink.background(skyRadiance(w.trace.scene().sky, sample.ray.direction));
+        sink.background(skyRadiance(w.trace.scene().sky, sample.ray.direction));
         return;
     }
-    const std::optional<SurfacePoint> p = surfacePoint(w.trace, hit);
+    const bool within = isWithinBody(w.trace.scene(), hit);
+    if (const std::optional<SurfacePoint> p = surfacePoint(w.trace, hit); p && !within) {
+        sink.meets(hit.instance);
+        walkRadiance(w, sample, hit, *p, sink);
+    }
+    if (sample.crossings == kMaxCrossings)
+        return;
+    const PassedRay passed =
+        passRay(w.trace, hit, sample.ray, sample.passing.pair(2 * sample.crossings).x,
+                sample.passing.pair(2 * sample.crossings + 1));
+    if (passed.weight != glm::vec3(0))
+        sink.scaled(passed.weight, [&] { walkSight(w, sample.behind(passed.ray), sink); });
+}
+
+/// Walks the light that one sample of a pixel shows: hands each of its terms to a sink
+/// (light_sink.h). The sum of the terms is an unbiased estimate of `w.sum`, but for the diffuse
+/// light that is gathered. Only radiance is seen through transmissive surfaces.
+template <PixelSink Sink>
+void walkPixel(const PixelWalk& w, const PixelSample& sample, Sink& sink) {
+    if (w.sum == PixelSum::Radiance) {
+        walkSight(w, sample, sink);
+        return;
+    }
+    const Hit hit = w.trace.closestHit(sample.ray);
+    const std::optional<SurfacePoint> p = hit ? surfacePoint(w.trace, hit) : std::nullopt;
     if (!p)
         return;
     sink.meets(hit.instance);
@@ -104,8 +127,7 @@ void walkPixel(const PixelWalk& w, const PixelSample& sample, Sink& sink) {
     const auto bounced = [&] { walkBounced(w, sample, hit, *p, sink); };
     const glm::vec3 reflectance = p->albedo / glm::pi<float>();
     switch (w.sum) {
-    case PixelSum::Radiance:
-        walkRadiance(w, sample, hit, *p, sink);
+    case PixelSum::Radiance: // walkSight()
         break;
     case PixelSum::DirectDiffuse:
         sink.scaled(reflectance, direct);

@@ -2,15 +2,15 @@
 #include "engine/reference/reference.h"
 
 #include "engine/core/parallel.h"
+#include "engine/reference/half_sums.h"
 #include "engine/reference/path.h"
 #include "engine/shading/direct_light.h"
+#include "engine/shading/passed_ray.h"
 #include "engine/shading/pixel_rays.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -24,43 +24,65 @@ namespace {
 constexpr std::uint32_t kTile = 256;   ///< pixels
 constexpr std::uint32_t kMaxPass = 16; ///< samples per pixel in one pass over all pixels
 constexpr std::size_t kSampleBlock = 1024;
+constexpr std::uint32_t kPassingSeed = 0x70617373; ///< separates the numbers of passRay()
 
-/// Sums of the two halves of a pixel's samples. The halves are scrambled independently, so their
-/// difference measures the error of low-discrepancy points, which the samples' variance cannot.
-struct PixelSum {
-    glm::dvec3 half[2] = {glm::dvec3(0), glm::dvec3(0)};
-};
+/// Radiance that a surface, met by `ray`, sends to the eye.
+glm::vec3 sampleRadiance(const PathContext& c, const Hit& hit, const Ray& ray,
+                         const SurfacePoint& p, const Sampler& sampler, std::uint64_t& rays) {
+    const DirectSample direct =
+        sampleDirectLight(c.trace, p, sampler.pair(1).x, sampler.pair(kOnLightDimension), rays);
+    const glm::vec3 indirect =
+        p.albedo / glm::pi<float>() * sampleIndirectIrradiance(c, p, sampler, rays);
+    const GlossyPoint g = glossyPoint(c.trace, hit, ray, p);
+    const glm::vec3 glossy = sampleReflectedRadiance(c, g, sampler, rays);
+    return p.emission + g.reflect(direct.irradiance, direct.toLight) + indirect + glossy;
+}
+
+/// Radiance that reaches the eye along a ray, and through transmissive surfaces.
+glm::vec3 sampleSight(const PathContext& c, Ray ray, const Sampler& sampler, std::uint64_t& rays) {
+    const Sampler passing{mixBits(sampler.seed, kPassingSeed), sampler.index};
+    glm::vec3 L(0), weight(1);
+    for (std::uint32_t crossing = 0; crossing <= kMaxCrossings; ++crossing) {
+        ++rays;
+        const Hit hit = c.trace.closestHit(ray);
+        if (!hit)
+            return L + weight * skyRadiance(c.trace.scene().sky, ray.direction);
+        const std::optional<SurfacePoint> p = surfacePoint(c.trace, hit);
+        if (p && !isWithinBody(c.trace.scene(), hit))
+            L += weight * sampleRadiance(c, hit, ray, *p, sampler, rays);
+        const PassedRay passed = passRay(c.trace, hit, ray, passing.pair(2 * crossing).x,
+                                         passing.pair(2 * crossing + 1));
+        if (passed.weight == glm::vec3(0))
+            break;
+        weight *= passed.weight;
+        ray = passed.ray;
+    }
+    return L;
+}
 
 glm::vec3 sampleView(const PathContext& c, View view, const Ray& ray, const Sampler& sampler,
                      std::uint64_t& rays) {
+    if (view == View::Lit)
+        return sampleSight(c, ray, sampler, rays);
     ++rays;
     const Hit hit = c.trace.closestHit(ray);
-    if (!hit)
-        return view == View::Lit ? skyRadiance(c.trace.scene().sky, ray.direction) : glm::vec3(0);
-    const std::optional<SurfacePoint> p = surfacePoint(c.trace, hit);
+    const std::optional<SurfacePoint> p = hit ? surfacePoint(c.trace, hit) : std::nullopt;
     if (!p)
         return glm::vec3(0);
     if (view == View::Albedo)
         return p->albedo;
-    if (view == View::Irradiance)
-        return sampleIndirectIrradiance(c, *p, sampler, rays);
-    DirectSample direct;
-    glm::vec3 indirect(0);
-    if (view == View::Lit || view == View::Direct)
-        direct = sampleDirectLight(c.trace, *p, sampler.pair(1).x, sampler.pair(kOnLightDimension),
-                                   rays);
-    if (view == View::Lit || view == View::Indirect)
-        indirect = p->albedo / glm::pi<float>() * sampleIndirectIrradiance(c, *p, sampler, rays);
-    if (view != View::Lit)
-        return p->albedo / glm::pi<float>() * direct.irradiance + indirect;
-    const GlossyPoint g = glossyPoint(c.trace, hit, ray, *p);
-    const glm::vec3 glossy = sampleReflectedRadiance(c, g, sampler, rays);
-    return p->emission + g.reflect(direct.irradiance, direct.toLight) + indirect + glossy;
+    if (view == View::Direct)
+        return p->albedo / glm::pi<float>() *
+               sampleDirectLight(c.trace, *p, sampler.pair(1).x, sampler.pair(kOnLightDimension),
+                                 rays)
+                   .irradiance;
+    const glm::vec3 E = sampleIndirectIrradiance(c, *p, sampler, rays);
+    return view == View::Irradiance ? E : p->albedo / glm::pi<float>() * E;
 }
 
 /// Adds samples [begin, end) of one pixel.
 void addSamples(const PathContext& c, const ReferenceOptions& o, const PixelRays& pixelRays,
-                std::uint32_t pixel, std::uint32_t begin, std::uint32_t end, PixelSum& sum,
+                std::uint32_t pixel, std::uint32_t begin, std::uint32_t end, HalfSums& sum,
                 std::uint64_t& rays) {
     const glm::vec2 corner(float(pixel % o.width), float(pixel / o.width));
     for (std::uint32_t s = begin; s < end; ++s) {
@@ -71,29 +93,18 @@ void addSamples(const PathContext& c, const ReferenceOptions& o, const PixelRays
     }
 }
 
-/// Sets image and noise. Var(mean) of n samples from their halves' means a, b: (a - b)^2 n_a n_b /
-/// n^2.
-void resolve(const std::vector<PixelSum>& sums, const std::vector<std::uint32_t>& tileSamples,
+/// Sets image and noise.
+void resolve(const std::vector<HalfSums>& sums, const std::vector<std::uint32_t>& tileSamples,
              ReferenceResult& result) {
-    double variance = 0, total = 0;
+    PictureNoise noise;
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        const std::uint32_t n = tileSamples[i / kTile], nb = n / 2, na = n - nb;
+        const std::uint32_t n = tileSamples[i / kTile];
         if (n == 0)
             continue;
-        const PixelSum& s = sums[i];
-        const glm::dvec3 mean = (s.half[0] + s.half[1]) / double(n);
-        result.image.rgb[i] = glm::vec3(mean);
-        total += mean.x + mean.y + mean.z;
-        if (nb == 0)
-            continue;
-        const glm::dvec3 d = s.half[0] / double(na) - s.half[1] / double(nb);
-        variance += glm::dot(d, d) * double(na) * double(nb) / (double(n) * double(n));
+        result.image.rgb[i] = glm::vec3(sums[i].mean(n));
+        noise.add(sums[i], n);
     }
-    const double values = 3 * double(sums.size());
-    if (result.samplesPerPixel < 2)
-        result.noise = std::numeric_limits<double>::infinity();
-    else
-        result.noise = variance > 0 ? std::sqrt(variance / values) / (total / values) : 0;
+    result.noise = noise.relative(sums.size(), result.samplesPerPixel);
 }
 
 } // namespace
@@ -106,7 +117,7 @@ ReferenceResult renderReference(const TraceScene& trace, const ReferenceOptions&
     const PathContext context{trace, emitters, sky, options.maxBounces};
     const PixelRays pixelRays(options.camera, options.width, options.height);
     const std::size_t pixels = std::size_t(options.width) * options.height;
-    std::vector<PixelSum> sums(pixels);
+    std::vector<HalfSums> sums(pixels);
     std::vector<std::uint32_t> tileSamples((pixels + kTile - 1) / kTile, 0);
     std::atomic<std::uint64_t> rays = 0;
 

@@ -30,7 +30,7 @@ struct SurfaceMap {
     VkImageView albedo = VK_NULL_HANDLE;  ///< rgb: diffuse; 0 on the back of a one-sided surface
     VkImageView surface = VK_NULL_HANDLE; ///< as packSurface() of surface_pack.glsl
     VkImageView depth = VK_NULL_HANDLE;   ///< 0 where there is no surface
-    /// xy as surface.frag writes them, metallic, roughness
+    /// As surface.frag writes it.
     VkImageView receiver = VK_NULL_HANDLE;
     VkSampler sampler = VK_NULL_HANDLE; ///< nearest
     std::uint64_t bytes = 0;            ///< of the images, which are kept

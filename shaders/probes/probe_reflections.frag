@@ -25,8 +25,7 @@ vec3 reflected(PackedSurface s) {
     // Half of the microfacets seen along the normal are tilted by less than atan(roughness^2).
     const vec3 radiance = marchedReflection(s.position + s.geometricNormal * (MARCH_OFFSET * norm1(size)), axis,
                                             2.0 * atan(s.roughness * s.roughness));
-    const vec3 F0 = mix(vec3(0.04), s.baseColor, s.metallic);
-    return (F0 * lobe.share.x + lobe.share.y) * radiance;
+    return (s.F0 * lobe.share.x + lobe.share.y) * radiance;
 }
 
 void main() {

@@ -23,7 +23,8 @@ using uint = std::uint32_t;
 struct GpuMaterial {
     vec4 baseColor;
     vec3 emission;   float metallic; // nits
-    float roughness; float normalScale; float alphaCutoff; float pad;
+    float roughness; float normalScale; float alphaCutoff; float transmission;
+    float dielectricF0; float pad0; float pad1; float pad2; // F0: reflectance at normal incidence
     // uv' = (dot(row u, (uv, 1)), dot(row v, (uv, 1))): rows 2k, 2k + 1 for texture k; w of row 2k: texture coordinate set
     vec4 uvRows[8];
 };
@@ -50,7 +51,7 @@ struct GpuMaterial {
 #define VIEW_NORMALS 5u
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuMaterial) == 176);
+static_assert(sizeof(GpuMaterial) == 192);
 } // namespace limn::shared
 #endif
 

@@ -83,7 +83,7 @@ Surface readSurface(vec4 base) {
         s.roughness *= t.g;
         s.metallic *= t.b;
     }
-    s.albedo = min(s.baseColor * (1.0 - s.metallic), 0.99);
+    s.albedo = min(s.baseColor * (1.0 - s.metallic) * (1.0 - material.transmission), 0.99);
     return s;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A surface in 32 bytes between surface.frag and the passes that light it: base colour and two normals in integers,
-// lightmap coordinates, metallic and roughness as they are.
+// lightmap coordinates as they are, and two numbers of two each: metallic and transmission, roughness and F0.
 
 struct PackedSurface {
     vec3 position;
@@ -11,6 +11,7 @@ struct PackedSurface {
     float metallic, roughness;
     vec2 lightmapUv; // without a lightmap: the instance's number and 0
     vec3 albedo; // diffuse reflectance
+    vec3 F0;     // reflectance at normal incidence
     float nearReach; // m; within it, light of near surfaces replaces the field's. 0: nowhere
 };
 
@@ -37,6 +38,17 @@ float unpackScale(float x) {
     return x > 0.0 ? exp2(64.0 * x - 32.0) : 0.0;
 }
 
+// Metallic and transmission in one number, the latter in 255 steps; metallic alone where nothing is transmitted.
+float packMetallic(float metallic, float transmission) {
+    return clamp(metallic, 0.0, 1.0) + 2.0 * round(255.0 * transmission);
+}
+
+// Roughness and a dielectric's F0 in one number: its square root in 1022 steps; roughness alone for F0 = 0.04.
+float packRoughness(float roughness, float dielectricF0) {
+    const float step = abs(dielectricF0 - 0.04) < 1e-6 ? 0.0 : 1.0 + round(1022.0 * sqrt(dielectricF0));
+    return clamp(roughness, 0.0, 1.0) + 2.0 * step;
+}
+
 // Stores square roots of the base colour: their 16 bits keep dark colours down to 2e-4 within 1e-3 of themselves.
 uvec4 packSurface(vec3 baseColor, vec3 normal, vec3 geometricNormal, float nearReach) {
     const vec3 root = sqrt(clamp(baseColor, 0.0, 1.0));
@@ -51,9 +63,12 @@ PackedSurface unpackSurface(uvec4 p, vec4 receiver) {
     s.nearReach = unpackScale(more.y);
     s.baseColor = root * root;
     s.lightmapUv = receiver.xy;
-    s.metallic = receiver.z;
-    s.roughness = receiver.w;
-    s.albedo = min(s.baseColor * (1.0 - s.metallic), 0.99);
+    const vec2 steps = floor(0.5 * receiver.zw);
+    s.metallic = receiver.z - 2.0 * steps.x;
+    s.roughness = receiver.w - 2.0 * steps.y;
+    s.albedo = min(s.baseColor * (1.0 - s.metallic) * (1.0 - steps.x / 255.0), 0.99);
+    const float F0 = (steps.y - 1.0) / 1022.0;
+    s.F0 = mix(vec3(steps.y > 0.0 ? F0 * F0 : 0.04), s.baseColor, s.metallic);
     s.detailNormal = octDecode(unpackSnorm2x16(p.z));
     s.geometricNormal = octDecode(unpackSnorm2x16(p.w));
     return s;

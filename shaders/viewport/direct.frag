@@ -89,8 +89,7 @@ void addDirect(PackedSurface s, vec3 F0, bool any, inout vec3 E, inout vec3 spec
 void main() {
     const float depth = texelFetch(depthImage, ivec2(gl_FragCoord.xy), 0).r;
     const PackedSurface s = seenSurface(depth);
-    const vec3 F0 = mix(vec3(0.04), s.baseColor, s.metallic);
     vec3 E = vec3(0), specular = vec3(0);
-    addDirect(s, F0, depth > 0.0, E, specular);
+    addDirect(s, s.F0, depth > 0.0, E, specular);
     outColor = vec4(s.albedo * E / kPi + specular, 0);
 }

@@ -122,11 +122,10 @@ vec3 bouncedLight(PackedSurface s, bool fromGrid, bool apart) {
     const vec3 diffuse = s.albedo * field.irradiance / kPi;
     if (kView != VIEW_LIT)
         return diffuse;
-    const vec3 F0 = mix(vec3(0.04), s.baseColor, s.metallic);
     if ((kFeatures & FEATURE_REFLECTED_APART) != 0 && apart)
         return diffuse;
     const float seen = fromGrid ? 1.0 : hemisphereSeen(reflection.factors, dot(axis, s.geometricNormal));
-    return diffuse + (F0 * reflection.share.x + reflection.share.y) * (field.lobe / seen);
+    return diffuse + (s.F0 * reflection.share.x + reflection.share.y) * (field.lobe / seen);
 }
 
 void main() {

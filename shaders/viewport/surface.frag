@@ -11,7 +11,7 @@ layout(constant_id = 2) const uint kBands = 3;
 
 layout(location = 0) out vec4 outEmitted; // nits, or what views without light show; how bounced light is read, see main()
 layout(location = 1) out uvec4 outSurface;
-// Lightmap coordinates, or, without a lightmap, the instance's number and 0; metallic, roughness
+// Lightmap coordinates, or, without a lightmap, the instance's number and 0; packMetallic(), packRoughness()
 layout(location = 2) out vec4 outReceiver;
 
 #include "shaders/shared/lookup_snaps.glsl"
@@ -28,7 +28,8 @@ void main() {
     const Surface s = readSurface(baseColor());
     float width;
     const vec2 lookup = snapLookup(fragLightmapUv + vec2(0, gl_FrontFacing ? 0.0 : draw.backOffset), width);
-    outReceiver = vec4(has(FEATURE_LIGHTMAP) ? lookup : vec2(float(draw.instance), 0), s.metallic, s.roughness);
+    outReceiver = vec4(has(FEATURE_LIGHTMAP) ? lookup : vec2(float(draw.instance), 0),
+                       packMetallic(s.metallic, material.transmission), packRoughness(s.roughness, material.dielectricF0));
     if (isBlackBack()) { // opposite normals, so that no light reaches both sides
         outEmitted = vec4(0);
         outSurface = packSurface(vec3(0), -s.geometricNormal, s.geometricNormal, 0.0);

@@ -44,6 +44,10 @@ TEST(ObjectRules, NumbersOutsideTheirRangesAreNot) {
     EXPECT_FALSE(validWith<Light>([](Light& l) { l.roll = std::nanf(""); }));
     EXPECT_FALSE(validWith<Material>([](Material& m) { m.baseColor.x = 1.5f; }));
     EXPECT_FALSE(validWith<Material>([](Material& m) { m.emission.y = -0.1f; }));
+    EXPECT_FALSE(validWith<Material>([](Material& m) { m.transmission = 1.1f; }));
+    EXPECT_FALSE(validWith<Material>([](Material& m) { m.ior = 0.9f; }));
+    EXPECT_FALSE(validWith<Material>([](Material& m) { m.ior = NAN; }));
+    EXPECT_FALSE(validWith<Material>([](Material& m) { m.thickness = -1; }));
     EXPECT_FALSE(validWith<Sky>([](Sky& s) { s.radiance.z = -1; }));
     EXPECT_FALSE(validWith<Sky>([](Sky& s) { s.ground.x = -1; }));
     EXPECT_FALSE(validWith<Sky>([](Sky& s) { s.rotation = NAN; }));

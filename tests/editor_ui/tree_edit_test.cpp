@@ -253,6 +253,21 @@ TEST(CommonEdit, OnlyWhatChangedIsCopiedAndPositionsMoveByAsMuch) {
     EXPECT_EQ(node, Object(Node{}));
 }
 
+TEST(CommonEdit, GlassIsCopiedFieldByField) {
+    Material a, b;
+    a.ior = b.ior = 1.7f;
+    b.transmission = 0.25f;
+    b.roughness = 0.1f;
+    for (float Material::*field : {&Material::transmission, &Material::ior, &Material::thickness}) {
+        Material after = a, expected = b;
+        after.*field = 1;
+        expected.*field = 1;
+        Object other = b;
+        copyChanges(a, after, other);
+        EXPECT_EQ(std::get<Material>(other), expected);
+    }
+}
+
 /// Ticks the box "On", which is the first field below the name of a light.
 TEST(CommonEdit, TheInspectorEditsAllSelectedLightsInOneStep) {
     HeadlessUi ui;

@@ -104,6 +104,29 @@ TEST_F(Gltf, IsImportedAgainWithTheSameSurfaces) {
         }
 }
 
+TEST_F(Gltf, GlassComesBackAsItWas) {
+    Material& glass = room->scene.materials[1];
+    glass.name = "glass";
+    glass.transmission = 0.75f;
+    glass.ior = 1.3f;
+    glass.thickness = 0.02f;
+    const ImportedScene again = reimported();
+    const Scene scene = flatten(again.document, again.assets);
+    std::size_t found = 0;
+    for (const Material& m : scene.materials) {
+        const bool isGlass = m.name == glass.name;
+        found += isGlass ? 1 : 0;
+        EXPECT_EQ(m.transmission, isGlass ? 0.75f : 0);
+        EXPECT_EQ(m.ior, isGlass ? 1.3f : 1.5f);
+        EXPECT_EQ(m.thickness, isGlass ? 0.02f : 0);
+    }
+    EXPECT_GT(found, 0U);
+    const nlohmann::json used = json()["extensionsUsed"];
+    for (const char* name :
+         {"KHR_materials_transmission", "KHR_materials_ior", "KHR_materials_volume"})
+        EXPECT_EQ(std::ranges::count(used, name), 1) << name;
+}
+
 /// Bilinear lookup as a graphics card does it, row 0 at the top.
 glm::vec3 lookup(const ImageF& image, glm::vec2 uv) {
     LightmapLayout texture;

@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/measure/compare.h"
 #include "engine/reference/reference.h"
+#include "engine/scene/surface/dielectric.h"
 #include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "tests/field/second_grid.h"
@@ -154,6 +155,84 @@ TEST(FieldRender, ThreadsChangeNoByteAndCancellingGivesNothing) {
     Progress progress;
     progress.cancel = &cancel;
     EXPECT_TRUE(renderField(trace, uniformGrid(), {}, optionsFor(View::Lit), progress).rgb.empty());
+}
+
+/// A ball of clear glass, or a sheet of it, under an even sky of radiance 1.
+Scene glassUnderTheSky(bool isBall, glm::vec3 tint) {
+    SceneBuilder b;
+    Material glass = lambert(tint);
+    glass.transmission = 1;
+    glass.roughness = 0;
+    glass.thickness = isBall ? 1 : 0;
+    b.addMaterial(glass);
+    if (isBall)
+        b.add(sphere(1, 4, false));
+    else
+        b.add(quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}));
+    b.scene.sky.radiance = glm::vec3(1);
+    return b.build();
+}
+
+FieldRenderOptions lookingAtTheMiddle(glm::vec3 eye) {
+    FieldRenderOptions o = optionsFor(View::Lit);
+    o.camera = {.eye = eye, .target = glm::vec3(0), .fovY = 1e-3f};
+    o.width = o.height = 4;
+    return o;
+}
+
+// What enters a body of clear glass leaves it again, so each ray of the eye finds the sky after all
+// but the share that was mirrored on entry.
+TEST(FieldRender, ABallOfGlassShowsAllOfAnEvenSkyThatItDoesNotMirror) {
+    FieldRenderOptions options = lookingAtTheMiddle({0, 0, 5});
+    for (const float x : {0.f, 0.5f, 0.8f}) {
+        options.camera.eye = {x, 0, 5};
+        options.camera.target = {x, 0, 0};
+        const float transmitted = 1 - fresnelDielectric(std::sqrt(1 - x * x), 1.5f);
+        const TraceScene trace(glassUnderTheSky(true, glm::vec3(1)));
+        for (const glm::vec3 p : renderField(trace, {}, {}, options).rgb)
+            EXPECT_NEAR(p.x, transmitted, 4e-3f) << x; // the ball is made of flat triangles
+    }
+}
+
+TEST(FieldRender, ASheetOfGlassTintsWhatIsBehindIt) {
+    const TraceScene trace(glassUnderTheSky(false, {0.5f, 0.8f, 1}));
+    for (const float z : {3.f, -3.f})
+        for (const glm::vec3 p : renderField(trace, {}, {}, lookingAtTheMiddle({0, 0, z})).rgb)
+            EXPECT_LT(glm::length(p - 0.96f * glm::vec3(0.5f, 0.8f, 1)), 1e-5f);
+    FieldRenderOptions irradiance = lookingAtTheMiddle({0, 0, 3});
+    irradiance.view = View::Irradiance;
+    EXPECT_EQ(meanOf(renderField(trace, {}, {}, irradiance)), 0) << "that of the sheet itself";
+}
+
+// Both look through the same glass, so they agree where the field holds the truth: a lit wall.
+TEST(FieldRender, WhatIsBehindGlassIsThatOfTheReference) {
+    SceneBuilder b;
+    b.addMaterial(lambert({0.6f, 0.4f, 0.2f}));
+    Material glass = lambert({0.5f, 1, 1});
+    glass.transmission = 1;
+    glass.roughness = 0;
+    glass.thickness = 1;
+    b.addMaterial(glass);
+    b.add(quad({-3, -3, -2}, {6, 0, 0}, {0, 6, 0}));
+    b.add(sphere(0.8f, 3, false, 1));
+    Light spot; // behind the ball, which has no highlight of it
+    spot.kind = LightKind::Spot;
+    spot.position = {0.5f, 0.5f, -1};
+    spot.direction = {0, 0, -1};
+    spot.strength = 20;
+    b.scene.lights = {spot};
+    const TraceScene trace(b.build());
+    FieldRenderOptions options = optionsFor(View::Lit);
+    options.camera = {.eye = {0, 0, 4}, .target = glm::vec3(0), .fovY = 0.5f};
+    options.samplesPerPixel = 64;
+    ReferenceOptions reference = referenceFor(options, 64);
+    reference.maxBounces = 0;
+    const ImageF image = renderField(trace, {}, {}, options);
+    const ReferenceResult truth = renderReference(trace, reference);
+    EXPECT_GT(meanOf(truth.image), 0.05);
+    EXPECT_LT(truth.noise, 0.1);
+    EXPECT_LT(rmsDifference(image, truth.image), 2 * truth.noise * meanOf(truth.image));
+    EXPECT_NEAR(meanOf(image) / meanOf(truth.image), 1, 0.01);
 }
 
 // The whole way: bake, relight, look up, against path tracing.

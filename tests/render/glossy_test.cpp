@@ -34,14 +34,15 @@ protected:
         for (std::uint32_t i = 0; i < bands * bands; ++i)
             c.push_back(coefficient(i));
         const int read = std::min(receiverBands(Assets(), m, kMaxBands), int(bands));
-        const Gloss gloss{glm::mix(glm::vec3(0.04f), glm::vec3(m.baseColor), m.metallic),
+        const float root = (m.ior - 1) / (m.ior + 1);
+        const Gloss gloss{glm::mix(glm::vec3(root * root), glm::vec3(m.baseColor), m.metallic),
                           m.roughness};
         const glm::vec3 toEye = glm::normalize(options.camera.eye - p);
         const ReflectionLobe lobe = reflectionLobe(m.roughness, toEye.y);
         const glm::vec3 reflected =
             shLobe(read, c.data(), lobeAxis(lobe, {0, 1, 0}, {-toEye.x, toEye.y, -toEye.z}),
                    windowedFactors(lobe.factors, read));
-        const glm::vec3 albedo = glm::vec3(m.baseColor) * (1 - m.metallic);
+        const glm::vec3 albedo = glm::vec3(m.baseColor) * ((1 - m.metallic) * (1 - m.transmission));
         return albedo / kPi * shIrradiance(std::min(int(bands), 3), c.data(), {0, 1, 0}) +
                specularAlbedo(gloss, toEye.y) * reflected;
     }
@@ -66,6 +67,25 @@ TEST_F(ViewportGlossy, ReflectsBouncedLightAsTheCpuDoesInEveryNumberOfBands) {
                                    expected(b.scene.materials[0], bands, planePoint(options, x, y)),
                                    2e-4f); // single precision interpolation of the position
             }
+}
+
+// Numbers that the surface images hold exactly: 0.4 = 102 / 255, and F0 = (511 / 1022)^2.
+TEST_F(ViewportGlossy, GlassKeepsItsDiffuseShareAndReflectsByItsIndex) {
+    options.camera.eye = {1, 3, 4};
+    for (const float metallic : {1.f, 0.5f, 0.f}) {
+        simple::SceneBuilder b = plane({0.9f, 0.6f, 0.3f});
+        Material& m = b.scene.materials[0];
+        m.metallic = metallic;
+        m.roughness = 0.5f;
+        m.transmission = 0.4f;
+        m.ior = 3;
+        viewport->setIndirect(field(4));
+        const ImageF image = draw(b.build(), View::Lit), albedo = draw(b.build(), View::Albedo);
+        expectNear(pixel(image, 11, 16),
+                   expected(b.scene.materials[0], 4, planePoint(options, 11, 16)), 2e-4f);
+        expectNear(pixel(albedo, 11, 16), glm::vec3(0.9f, 0.6f, 0.3f) * (0.6f * (1 - metallic)),
+                   1e-3f);
+    }
 }
 
 // Whoever gathers diffuse light itself gets the rest of the picture.

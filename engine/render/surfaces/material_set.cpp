@@ -2,6 +2,7 @@
 #include "engine/render/surfaces/material_set.h"
 
 #include "engine/math/sh.h"
+#include "engine/scene/surface/dielectric.h"
 #include "engine/scene/surface/receiver_bands.h"
 
 #include <cassert>
@@ -59,6 +60,8 @@ GpuMaterial factorsOf(const Material& m) {
     g.roughness = m.roughness;
     g.normalScale = m.normalScale;
     g.alphaCutoff = alphaCutoff(m);
+    g.transmission = m.transmission;
+    g.dielectricF0 = dielectricF0(m.ior);
     const auto textures = texturesOf(m);
     for (std::size_t k = 0; k < textures.size(); ++k) {
         const TextureRef& t = textures[k].ref;

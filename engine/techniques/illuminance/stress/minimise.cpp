@@ -143,6 +143,7 @@ private:
             {[](Material& m) { m = plainMaterial(m); }, [](Material& m) { m.metallic = 0; },
              [](Material& m) { m.roughness = 1; }, [](Material& m) { m.emission = glm::vec3(0); },
              [](Material& m) { m.doubleSided = false; },
+             [](Material& m) { m.transmission = 0, m.ior = Material{}.ior, m.thickness = 0; },
              [](Material& m) { m.alphaMode = AlphaMode::Opaque; },
              [](Material& m) { m.baseColor = glm::vec4(0.5f, 0.5f, 0.5f, 1); }});
     }
