@@ -8,7 +8,7 @@
 #include "engine/files/image_file.h"
 #include "engine/json/json.h"
 #include "engine/measure/compare.h"
-#include "engine/reference/reference.h"
+#include "engine/reference/light_tracing.h"
 
 #include <chrono>
 #include <memory>
@@ -25,7 +25,7 @@ struct ReferenceCommand {
     std::string view = "lit", output;
     ReferenceOptions reference;
     int threads = 0;
-    bool json = false;
+    bool lightTracing = false, json = false;
 };
 
 View viewOf(const std::string& name) {
@@ -58,6 +58,8 @@ Exit runReference(ReferenceCommand& o) {
             checkOutputFile(o.output, {".exr"}, {o.scene.scene, o.scene.sky});
         !writable)
         return failed(writable.error().message);
+    if (o.lightTracing && !canBeLightTraced(viewOf(o.view)))
+        return failed("--light-tracing shows --view irradiance or indirect only");
     const ThreadLimit limit(o.threads);
     const Result<ImportedScene> imported = openScene(o.scene);
     if (!imported)
@@ -73,7 +75,9 @@ Exit runReference(ReferenceCommand& o) {
 
     const auto start = std::chrono::steady_clock::now();
     const TraceScene trace(scene);
-    const ReferenceResult r = renderReference(trace, o.reference, progressOnStderr());
+    const ReferenceResult r = o.lightTracing
+                                  ? renderLightTraced(trace, o.reference, progressOnStderr())
+                                  : renderReference(trace, o.reference, progressOnStderr());
     endProgressLine();
     const Json json = report(r, o.view, secondsSince(start));
     if (const Result<void> written = writeExr(o.output, r.image); !written)
@@ -106,6 +110,10 @@ void addReferenceCommand(Command& app) {
                    "Seed of the random numbers; another seed gives other noise");
     command.option("--threads", o->threads, "Threads to use; 0: all").within(0, 1024);
     command.option("-o,--output", o->output, "Linear 32-bit image to write, .exr").required();
+    command.flag("--light-tracing", o->lightTracing,
+                 "Follow photons from the lights, through mirrors and glass too, instead of paths "
+                 "from the eye: shows caustics. --spp photons a pixel; --bounces counts diffuse "
+                 "reflections");
     command.flag("--json", o->json, "Print one JSON object to stdout");
     command.onRun([o] { return runReference(*o); });
 }
