@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "projects/gltf_writer.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <fstream>
@@ -110,7 +111,7 @@ Json materialJson(const GltfMaterial& material, std::vector<std::string>& images
         surface["baseColorFactor"] = numbers(glm::dvec4(material.baseColor, 1));
     if (!material.texture.empty())
         surface["baseColorTexture"] = textureJson(material.texture, images);
-    surface["metallicFactor"] = 0;
+    surface["metallicFactor"] = material.metallic == 0 ? Json(0) : Json(tidy(material.metallic));
     surface["roughnessFactor"] = tidy(material.roughness);
     Json out = {{"name", material.name}, {"pbrMetallicRoughness", surface}};
     if (material.emissive != glm::dvec3(0)) {
@@ -118,6 +119,11 @@ Json materialJson(const GltfMaterial& material, std::vector<std::string>& images
         out["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] =
             tidy(material.emissiveStrength);
     }
+    if (material.transmission > 0)
+        out["extensions"]["KHR_materials_transmission"]["transmissionFactor"] =
+            tidy(material.transmission);
+    if (material.thickness > 0)
+        out["extensions"]["KHR_materials_volume"]["thicknessFactor"] = tidy(material.thickness);
     if (!material.emissiveTexture.empty())
         out["emissiveTexture"] = textureJson(material.emissiveTexture, images);
     if (material.alphaMask)
@@ -144,6 +150,9 @@ Json nodesJson(const GltfFile& file, Json& roots) {
             json["camera"] = node.camera;
         if (node.sun >= 0)
             json["extensions"]["KHR_lights_punctual"]["light"] = node.sun;
+        if (node.spot >= 0)
+            json["extensions"]["KHR_lights_punctual"]["light"] =
+                file.suns.size() + std::size_t(node.spot);
         out.push_back(std::move(json));
         assert(node.parent < int(i));
         if (node.parent >= 0)
@@ -170,6 +179,14 @@ Json lightsJson(const GltfFile& file) {
                        {"type", "directional"},
                        {"color", numbers(sun.color)},
                        {"intensity", tidy(sun.lux)}});
+    for (const GltfSpot& spot : file.spots)
+        out.push_back({{"name", spot.name},
+                       {"type", "spot"},
+                       {"color", numbers(spot.color)},
+                       {"intensity", tidy(spot.candela)},
+                       {"spot",
+                        {{"innerConeAngle", tidy(spot.innerAngle)},
+                         {"outerConeAngle", tidy(spot.outerAngle)}}}});
     return out;
 }
 
@@ -221,7 +238,11 @@ bool writeGltf(const GltfFile& file, const std::string& folder) {
     json["asset"] = {
         {"version", "2.0"}, {"generator", "limn projects"}, {"copyright", file.copyright}};
     json["extensionsUsed"] = {"KHR_materials_emissive_strength"};
-    if (!file.suns.empty()) {
+    if (std::ranges::any_of(file.materials, [](const auto& m) { return m.transmission > 0; }))
+        json["extensionsUsed"].push_back("KHR_materials_transmission");
+    if (std::ranges::any_of(file.materials, [](const auto& m) { return m.thickness > 0; }))
+        json["extensionsUsed"].push_back("KHR_materials_volume");
+    if (!file.suns.empty() || !file.spots.empty()) {
         json["extensionsUsed"].push_back("KHR_lights_punctual");
         json["extensions"]["KHR_lights_punctual"]["lights"] = lightsJson(file);
     }

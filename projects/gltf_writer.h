@@ -17,6 +17,7 @@ namespace limn {
 struct GltfMaterial {
     std::string name{};
     glm::dvec3 baseColor{1}; ///< linear Rec. 709
+    double metallic = 0;
     double roughness = 1;
     glm::dvec3 emissive{0};      ///< emissiveFactor, [0, 1]
     double emissiveStrength = 1; ///< [nits]
@@ -24,6 +25,8 @@ struct GltfMaterial {
     std::string emissiveTexture{};
     bool alphaMask = false; ///< cut off at 0.5
     bool doubleSided = false;
+    double transmission = 0; ///< of KHR_materials_transmission
+    double thickness = 0;    ///< of KHR_materials_volume; the index of refraction is 1.5
 };
 
 /// Directional light of KHR_lights_punctual.
@@ -33,16 +36,24 @@ struct GltfSun {
     double lux = 0;
 };
 
+/// Spot light of KHR_lights_punctual.
+struct GltfSpot {
+    std::string name{};
+    glm::dvec3 color{1};
+    double candela = 0;
+    double innerAngle = 0, outerAngle = 0.785398; ///< half-angles [rad]
+};
+
 struct GltfCamera {
     std::string name{};
     double fovY = 0.9; ///< [rad]
 };
 
-/// A root node, or a child of `parent`. At most one of mesh, camera and sun is set (>= 0).
+/// A root node, or a child of `parent`. At most one of mesh, camera, sun and spot is set (>= 0).
 struct GltfNode {
     std::string name{};
     int parent = -1; ///< an earlier node
-    int mesh = -1, camera = -1, sun = -1;
+    int mesh = -1, camera = -1, sun = -1, spot = -1;
     glm::dvec3 translation{0};
     glm::dvec4 rotation{0, 0, 0, 1}; ///< x, y, z, w; unit
     glm::dvec3 scale{1};
@@ -54,6 +65,7 @@ struct GltfFile {
     std::vector<GltfMaterial> materials{};
     std::vector<Mesh> meshes{}; ///< their uv1, tangents and colours are not written
     std::vector<GltfSun> suns{};
+    std::vector<GltfSpot> spots{};
     std::vector<GltfCamera> cameras{};
     std::vector<GltfNode> nodes{};
 };

@@ -3,9 +3,9 @@
 // pictures light, four turning asterisks on the walls and a ring under the ceiling, round which a
 // spark runs. After Figure 7 of "Jendersie, Kuri, Grosch. Real-Time Global Illumination Using
 // Precomputed Illuminance Composition with Chrominance Compression. 2016".
-#include "engine/gallery/mesh_builder.h"
 #include "projects/gltf_writer.h"
 #include "projects/png_writer.h"
+#include "projects/wall.h"
 
 #include <cmath>
 #include <cstdio>
@@ -67,9 +67,7 @@ bool writeFlipbook(const std::string& path, const std::function<double(dvec2, do
 // A square about `centre` with `right` and `up` half its edges, its front towards right x up, its
 // picture upright.
 Mesh panel(const std::string& name, std::uint32_t material, dvec3 centre, dvec3 right, dvec3 up) {
-    Mesh mesh{.name = name, .material = material};
-    addQuad(mesh, centre - right - up, centre + right - up, centre + right + up,
-            centre - right + up);
+    Mesh mesh = wall(name, material, centre, right, up);
     mesh.uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
     return mesh;
 }
@@ -83,12 +81,6 @@ Mesh block(const char* name, dvec3 centre, dvec3 half, double turn) {
         addQuad(mesh, c - right - up, c + right - up, c + right + up, c - right + up);
     };
     face(z, x, y), face(-z, -x, y), face(x, -z, y), face(-x, z, y), face(y, x, -z);
-    return mesh;
-}
-
-Mesh wall(const char* name, Material material, dvec3 centre, dvec3 right, dvec3 up) {
-    Mesh mesh = panel(name, material, centre, right, up);
-    mesh.uv0.clear();
     return mesh;
 }
 
