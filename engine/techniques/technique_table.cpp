@@ -4,6 +4,7 @@
 #include "engine/techniques/ambient/ambient.h"
 #include "engine/techniques/illuminance/illuminance.h"
 #include "engine/techniques/lpv/lpv.h"
+#include "engine/techniques/photon_lattices/photon_lattices.h"
 #include "engine/techniques/probes/probes.h"
 #include "engine/techniques/sparse_probes/sparse_probes.h"
 
@@ -16,9 +17,9 @@
 
 namespace limn {
 
-static constexpr std::array kTechniques = {&kIlluminanceTechnique, &kAmbientTechnique,
-                                           &kLpvTechnique, &kProbesTechnique,
-                                           &kSparseProbesTechnique};
+static constexpr std::array kTechniques = {&kIlluminanceTechnique,  &kAmbientTechnique,
+                                           &kLpvTechnique,          &kProbesTechnique,
+                                           &kSparseProbesTechnique, &kPhotonTechnique};
 
 std::span<const Technique* const> techniques() {
     return kTechniques;
