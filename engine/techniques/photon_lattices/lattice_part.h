@@ -64,6 +64,10 @@ struct WeightedCell {
 /// The weights of a blur, which are symmetric and sum to 1.
 std::vector<WeightedCell> blurWeights(PhotonBlur blur);
 
+/// Area over that of a cell's face below which a cell's light is divided by this instead, so that
+/// slivers of surface do not flash.
+inline constexpr float kMinAreaShare = 0.05f;
+
 /// A lattice as a part of a field. Irradiance at a point of cell c with normal n is
 /// sum c_i Y_i(n) / max(sum a_i Y_i(n), s^2 / 20), s being the side of a cell, or for incident
 /// light 4 pi / 3 times that, with photonHarmonics() c and facingHarmonics() a. Number 4 e + i is
@@ -86,7 +90,7 @@ public:
     bool incident() const { return m_incident; }
     bool trilinear() const { return m_trilinear; }
     /// Area below which a cell's light is divided by this instead [m^2].
-    float minArea() const { return m_cells.lattice.cell * m_cells.lattice.cell / 20; }
+    float minArea() const { return m_cells.lattice.cell * m_cells.lattice.cell * kMinAreaShare; }
 
 private:
     LitCells m_cells;

@@ -11,8 +11,6 @@
 
 namespace limn {
 
-static constexpr float kMinCosine = 0.5f; ///< of two normals that lie on the same surface
-
 PhotonSplatPart::PhotonSplatPart(std::vector<Splat> splats, float radius)
     : m_splats(std::move(splats)), m_radius(radius) {
     m_order.reserve(m_splats.size());

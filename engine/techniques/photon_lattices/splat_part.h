@@ -38,6 +38,10 @@ public:
     glm::vec3 sum(std::span<const FieldTap> taps) const override;
     bool equals(const FieldPart& other) const override;
 
+    const std::vector<Splat>& splats() const { return m_splats; }
+    float radius() const { return m_radius; }
+    static constexpr float kMinCosine = 0.5f; ///< of the normals of a splat and what it lights
+
     std::uint64_t bytes() const { return m_splats.size() * (sizeof(Splat) + sizeof(m_order[0])); }
 
 private:
