@@ -6,9 +6,23 @@
 #include "engine/techniques/photon_lattices/photon_overlay.h"
 #include "engine/techniques/photon_lattices/photon_report.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace limn {
+
+/// Whether the photons at rest of these inputs serve others, too: a change of colours, or of how
+/// photons are summed, traces none.
+static bool samePaths(const PhotonInputs& a, const PhotonInputs& b) {
+    PathSettings paths = a.settings.paths;
+    paths.photons = b.settings.paths.photons;
+    return a.surfaces == b.surfaces && paths == b.settings.paths &&
+           a.settings.still == b.settings.still &&
+           std::ranges::all_of(b.sources, [&](const ShiningSource& source) {
+               return std::ranges::find(a.sources, source.source, &ShiningSource::source) !=
+                      a.sources.end();
+           });
+}
 
 LightingReport LivePhotons::update(const Scene& scene, const Trace& trace,
                                    const Progress& progress) {
@@ -22,7 +36,7 @@ LightingReport LivePhotons::update(const Scene& scene, const Trace& trace,
     double fieldMs = 0;
     if (!report.skipped) {
         // The first light, and that of a scene at rest, may take longer.
-        m_rested = still > 0 && (same || !m_everLit);
+        m_rested = still > 0 && (same || !m_everLit || (m_rested && samePaths(m_lit, now)));
         m_inputs.reset(); // a cancelled update starts anew
         m_lit = now;
         if (m_rested)

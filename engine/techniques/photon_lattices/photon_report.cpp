@@ -72,9 +72,9 @@ void describePhotons(const PhotonStore& store, const PhotonInputs& inputs,
          double(cost.clipped)},
         {"bytes", "Memory", "Photons, their sums, areas and the lattices",
          double(store.bytes() + bytesOf(field)), CounterUnit::Bytes},
-        {"dense_bytes", "Memory of dense lattices",
-         "What the lattices would take as 3D images of halfs", double(denseBytes(store.lattices())),
-         CounterUnit::Bytes}};
+        // A count, because all that are bytes sum to what the light takes.
+        {"dense_mib", "Dense lattices (MiB)", "What the lattices would take as 3D images of halfs",
+         double(denseBytes(store.lattices())) / (1 << 20)}};
 }
 
 } // namespace limn

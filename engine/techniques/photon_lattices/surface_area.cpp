@@ -183,6 +183,8 @@ bool PhotonAreas::follow(const Scene& scene, const PhotonLattices& lattices) {
         return false;
     for (std::size_t k = 0; k < kPhotonLattices; ++k) {
         m_sums[k].clear();
+        if (m_parts.size() == 1)
+            continue;
         for (const Part& part : m_parts)
             m_sums[k] = m_sums[k].empty() ? part.areas[k] : sumOf(m_sums[k], part.areas[k]);
     }

@@ -39,7 +39,9 @@ public:
     bool follow(const Scene& scene, const PhotonLattices& lattices);
 
     /// In the order of the cells.
-    const std::vector<CellArea>& of(std::size_t lattice) const { return m_sums[lattice]; }
+    const std::vector<CellArea>& of(std::size_t lattice) const {
+        return m_parts.size() == 1 ? m_parts[0].areas[lattice] : m_sums[lattice];
+    }
 
     std::uint64_t bytes() const;
     /// Number of parts that the last follow() clipped: dynamic objects, and all others together.
@@ -67,8 +69,8 @@ private:
 
     std::shared_ptr<const Assets> m_assets;
     PhotonLattices m_lattices;
-    std::vector<Part> m_parts;
-    std::array<std::vector<CellArea>, kPhotonLattices> m_sums;
+    std::vector<Part> m_parts{1};
+    std::array<std::vector<CellArea>, kPhotonLattices> m_sums; ///< of several parts
     std::uint32_t m_clipped = 0;
 };
 

@@ -364,6 +364,10 @@ TEST(PhotonLattices, TraceMorePhotonsOnceAtRest) {
     const LightingReport resting = lit.update();
     EXPECT_TRUE(resting.converged);
     EXPECT_NEAR(counterOf(resting, "emitted"), many, 0.05 * many);
+    lit.scene.lights[0].color = glm::vec3(0, 1, 0);
+    const LightingReport recoloured = lit.update();
+    EXPECT_TRUE(recoloured.converged);
+    EXPECT_EQ(counterOf(recoloured, "lights_traced"), 0);
     EXPECT_TRUE(lit.update().skipped);
 }
 
