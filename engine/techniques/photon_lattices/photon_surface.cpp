@@ -51,7 +51,7 @@ float meanShare(glm::vec3 power, glm::vec3 share) {
 
 } // namespace
 
-std::optional<PhotonSurface> photonSurface(const Scene& scene, const PhotonHit& hit) {
+std::optional<PhotonSurface> photonSurface(const Scene& scene, const PhotonArrival& hit) {
     const Instance& instance = scene.instances[hit.instance];
     if (!hit.front && !isTwoSided(scene.materialOf(instance)))
         return std::nullopt;

@@ -24,7 +24,7 @@ struct PhotonSurface {
 };
 
 /// A place on a surface that a photon meets from one side.
-struct PhotonHit {
+struct PhotonArrival {
     std::uint32_t instance = 0, triangle = 0;
     float u = 0, v = 0; ///< barycentrics
     glm::vec3 position{0};
@@ -34,7 +34,7 @@ struct PhotonHit {
 
 /// The surface at a hit; std::nullopt for the back of a one-sided surface that passes no light on,
 /// which is black. The 4 % that a dielectric reflects specularly are left out.
-std::optional<PhotonSurface> photonSurface(const Scene& scene, const PhotonHit& hit);
+std::optional<PhotonSurface> photonSurface(const Scene& scene, const PhotonArrival& hit);
 
 /// A photon that goes on from a surface.
 struct ScatteredPhoton {
