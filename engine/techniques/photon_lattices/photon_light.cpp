@@ -25,7 +25,7 @@ Material scatteringPart(Material m) {
     m.normalTexture = plain.normalTexture;
     m.emissiveTexture = plain.emissiveTexture;
     m.emissiveFlipbook = plain.emissiveFlipbook;
-    if (m.metallic == 0)
+    if (m.metallic == 0 && m.transmission == 0)
         m.roughness = plain.roughness;
     return m;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/scene/scene.h"
+#include "engine/scene/surface/dielectric.h"
 #include "engine/scene/surface/metal.h"
 #include "engine/shading/sampler.h"
 #include "engine/techniques/photon_lattices/photon.h"
@@ -21,6 +22,8 @@ struct PhotonSurface {
     glm::vec3 normal{0};  ///< interpolated from the vertices
     glm::vec3 diffuse{0}; ///< share reflected diffusely
     Metal metal;
+    Transmission transmission;
+    bool inside = false; ///< whether the photon comes from within the body behind the surface
 };
 
 /// A place on a surface that a photon meets from one side.
@@ -48,9 +51,10 @@ struct ScatteredPhoton {
 inline constexpr std::uint32_t kScatterPairs = 2;
 
 /// Scatters a photon of that power, which arrives along unit `direction`, or absorbs it
-/// (std::nullopt). One random number chooses diffuse reflection, metal, or absorption, by the mean
-/// of their shares over the colours weighted by the photon's power, so that what survives keeps its
-/// sum over the colours. Uses the sampler's pairs from `dimension` on.
+/// (std::nullopt). One random number chooses diffuse reflection, metal, a mirror of glass, the way
+/// through it, or absorption, by the mean of their shares over the colours weighted by the photon's
+/// power, so that what survives keeps its sum over the colours. Uses the sampler's pairs from
+/// `dimension` on.
 /// McGuire, Luebke. Hardware-Accelerated Global Illumination by Image Space Photon Mapping. 2009,
 /// which takes the plain mean.
 std::optional<ScatteredPhoton> scatter(const PhotonSurface& surface, glm::vec3 direction,

@@ -93,9 +93,8 @@ std::vector<CellArea> sumOf(const std::vector<CellArea>& a, const std::vector<Ce
 } // namespace
 
 bool storesPhotons(const Material& material) {
-    return material.metallic < 1 || material.metallicRoughnessTexture.image >= 0
-               ? glm::vec3(material.baseColor) != glm::vec3(0)
-               : false;
+    const bool isMetal = material.metallic >= 1 && material.metallicRoughnessTexture.image < 0;
+    return !isMetal && material.transmission < 1 && glm::vec3(material.baseColor) != glm::vec3(0);
 }
 
 std::vector<CellArea> surfaceAreas(const Scene& scene, std::span<const std::uint32_t> instances,

@@ -225,5 +225,99 @@ TEST(PhotonPaths, OfAMirrorInTheSunKeepItsShare) {
     }
 }
 
+/// Glass that is clear, smooth and colourless.
+Material clearGlass() {
+    Material m = simple::lambert(glm::vec3(1));
+    m.transmission = 1;
+    m.roughness = 0;
+    m.thickness = 1;
+    return m;
+}
+
+/// Photons of power 1 towards `to`, as many as `count`.
+PhotonMap shoot(const LitByPhotons& lit, glm::vec3 from, glm::vec3 to, std::uint32_t count) {
+    return tracePaths(lit.photons(), count,
+                      [&](std::uint32_t path, PhotonMap&) {
+                          return PathStart{.flight = {.origin = from,
+                                                      .direction = glm::normalize(to - from),
+                                                      .power = glm::vec3(1)},
+                                           .surface = {},
+                                           .sample = path};
+                      },
+                      {});
+}
+
+// A face of glass reflects R. A pane of two faces passes (1 - R) / (1 + R), a sheet 1 - R, and
+// reflects the rest, over all the bounces between its faces.
+TEST(PhotonPaths, ThroughGlassArePassedOnOrMirrored) {
+    constexpr std::uint32_t kCount = 1U << 15;
+    const glm::vec3 from(-2, 3, 0), middle(0, 1, 0);
+    const float cosine = 2 / std::sqrt(8.f);
+    const double R = double(fresnelDielectric(cosine, 1.5f));
+    for (const bool sheet : {false, true}) {
+        simple::SceneBuilder b;
+        b.addMaterial(simple::lambert(glm::vec3(1e-6f))); // stores photons and sends none on
+        b.addMaterial(clearGlass());
+        b.scene.materials[1].thickness = sheet ? 0 : 1;
+        b.add(simple::quad({-6, 0, -6}, {0, 0, 12}, {12, 0, 0}));
+        if (sheet)
+            b.add(simple::quad({-2, 1, -2}, {0, 0, 4}, {4, 0, 0}, 1));
+        else
+            b.add(simple::box({-2, 0.8f, -2}, {2, 1, 2}, false, 1));
+        const LitByPhotons lit(b.build(), {{"specular", 64}});
+        const PhotonMap map = shoot(lit, from, middle, kCount);
+        const double passed = double(map.photons.size()) / kCount;
+        const double expected = sheet ? 1 - R : (1 - R) / (1 + R);
+        std::printf("%s: passes %.4f, closed form %.4f\n", sheet ? "sheet" : "pane", passed,
+                    expected);
+        EXPECT_NEAR(passed, expected, 3 * std::sqrt(expected * (1 - expected) / kCount));
+        const PhotonFates& f = map.fates;
+        // What is mirrored leaves upwards; what passes ends on the dark floor.
+        EXPECT_EQ(f.lost + map.photons.size(), kCount);
+        EXPECT_EQ(f.absorbed, map.photons.size());
+        // A pane shifts light; neither bends it for good.
+        const glm::vec3 direction = glm::normalize(middle - from);
+        for (const Photon& photon : map.photons) {
+            EXPECT_LT(glm::distance(photon.direction, direction), 1e-4f);
+            EXPECT_EQ(map.vertices[photon.vertex].event, PhotonEvent::Transmitted);
+            EXPECT_TRUE(map.vertices[photon.vertex].narrow);
+        }
+        const float shift = sheet ? 0.f : 0.2f * (1 - std::tan(std::asin(cosine / 1.5f)));
+        EXPECT_NEAR(map.photons[0].position.x, 1 - shift, 1e-4);
+    }
+}
+
+// Tinted glass colours what it passes and not what it mirrors. A body is left by total reflection.
+TEST(Scatter, TintsWhatGlassPasses) {
+    PhotonSurface surface{.geometricNormal = {0, 1, 0}, .normal = {0, 1, 0}};
+    surface.transmission = {
+        .tint = {0.9f, 0.6f, 0.3f}, .share = 1, .ior = 1.5f, .isThin = false, .roughness = 0};
+    const glm::vec3 in = glm::normalize(glm::vec3(2, -1, 0));
+    const double R = double(fresnelDielectric(1 / std::sqrt(5.f), 1.5f));
+    constexpr std::uint32_t kCount = 1U << 14;
+    std::uint32_t mirrored = 0, passed = 0;
+    for (std::uint32_t i = 0; i < kCount; ++i)
+        if (const auto s = scatter(surface, in, glm::vec3(1), {0, i}, 0)) {
+            if (s->event == PhotonEvent::Specular) {
+                ++mirrored;
+                EXPECT_NEAR(s->power.x, s->power.z, 1e-5f);
+            } else {
+                ++passed;
+                EXPECT_NEAR(s->power.x, 1.5f, 1e-4);
+                EXPECT_NEAR(s->power.z, 0.5f, 1e-4);
+                EXPECT_NEAR(s->direction.x, in.x / 1.5f, 1e-5) << "Snell";
+                EXPECT_LT(s->direction.y, 0);
+            }
+        }
+    EXPECT_NEAR(mirrored / double(kCount), R, 1e-3);
+    EXPECT_NEAR(passed / double(kCount), (1 - R) * 0.6, 1e-3);
+    surface.inside = true;
+    for (std::uint32_t i = 0; i < 64; ++i) {
+        const auto s = scatter(surface, in, glm::vec3(1), {0, i}, 0);
+        ASSERT_TRUE(s);
+        EXPECT_EQ(s->event, PhotonEvent::Specular) << "beyond 41.8 degrees";
+    }
+}
+
 } // namespace
 } // namespace limn::photon_paths_test
