@@ -14,7 +14,7 @@ layout(local_size_x = PHOTON_MAP_LANES, local_size_y = PHOTON_MAP_LANES) in;
 
 layout(push_constant) uniform Constants { GpuPhotonMap map; };
 layout(binding = PHOTON_MAP_RECEIVER) uniform sampler2D receiverMap;
-layout(std430, binding = PHOTON_MAP_BODIES) readonly buffer Bodies { uint bodies[]; }; // per instance: 1: no thin sheet
+layout(std430, binding = PHOTON_MAP_GLASS) readonly buffer Glasses { vec4 glasses[]; };
 layout(std430, binding = PHOTON_MAP_BOUNCES) writeonly buffer Bounces { GpuBounce bounces[]; };
 
 void main() {
@@ -40,11 +40,12 @@ void main() {
             p.metal = s.baseColor;
             p.metallic = s.metallic;
             p.roughness = s.roughness;
-            p.transmitted = (1.0 - s.metallic) * s.transmission;
-            p.tint = s.baseColor * p.transmitted;
-            p.ior = s.ior;
             const uint instance = uint(s.lightmapUv.x);
-            p.isThin = bodies[instance] == 0u;
+            const vec4 glass = glasses[instance];
+            p.transmitted = (1.0 - s.metallic) * glass.x;
+            p.tint = s.baseColor * p.transmitted;
+            p.ior = glass.y;
+            p.isThin = glass.z > 0.0;
             p.inside = false;
             const Way way = scatter(p, direction, vec3(seen.incident), index, PHOTON_START_PAIRS);
             bounce = GpuBounce(way.share, way.event, way.direction, instance, seen.position, seen.incident,

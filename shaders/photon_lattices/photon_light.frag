@@ -79,6 +79,5 @@ void main() {
     // Light counts as equal from all directions.
     const float NoV = clamp(dot(s.detailNormal, s.toEye), 0.0, 1.0);
     const vec2 share = reflectionLobe(reflectionTable, s.roughness, NoV, 2).share;
-    const vec3 F0 = mix(vec3(0.04), s.baseColor, s.metallic);
-    writeLight(s, irradiance, (F0 * share.x + share.y) * irradiance / kPi);
+    writeLight(s, irradiance, (s.F0 * share.x + share.y) * irradiance / kPi);
 }

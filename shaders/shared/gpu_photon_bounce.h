@@ -11,7 +11,7 @@ namespace limn::shared {
 
 // Bindings of set 0 after those of the map
 #define PHOTON_MAP_RECEIVER 3u
-#define PHOTON_MAP_BODIES 4u
+#define PHOTON_MAP_GLASS 4u    // per instance: transmission, index of refraction, 1 for a thin sheet, 0
 #define PHOTON_MAP_BOUNCES 5u // GpuBounce per texel of all views, in the order of castRsm()
 #define PHOTON_MAP_BINDINGS 6u
 

@@ -40,15 +40,15 @@ float windowAt(GpuRsmView view, vec3 direction, float distance) {
     return window;
 }
 
-/// False where the texel reflects nothing.
-bool readRsmTexel(GpuRsmView view, ivec2 texel, out RsmTexel seen) {
+/// What lies in the texel, and the direction from the light; false where nothing is lit.
+bool readRsmPlace(GpuRsmView view, ivec2 texel, out RsmTexel seen, out vec3 direction) {
     const float depth = texelFetch(depthMap, texel, 0).r;
     seen.albedo = texelFetch(albedoMap, texel, 0).rgb;
-    if (!(depth > 0.0) || seen.albedo == vec3(0.0))
+    direction = view.forward;
+    if (!(depth > 0.0))
         return false;
     const vec2 ndc = (vec2(texel) + 0.5) * (2.0 / float(view.mapSize)) - 1.0;
     const vec3 across = ndc.x * view.right - ndc.y * view.up; // the first row is the upper one
-    vec3 direction = view.forward;
     float spread = view.texelArea, distance = view.depthUnit * (1.0 - depth);
     if (view.parallel == 1u) {
         seen.position = view.origin + across + view.forward * distance;
@@ -68,4 +68,10 @@ bool readRsmTexel(GpuRsmView view, ivec2 texel, out RsmTexel seen) {
     if (dot(seen.normal, direction) > 0.0)
         seen.normal = -seen.normal;
     return true;
+}
+
+/// The same; false also where the texel reflects nothing diffusely.
+bool readRsmTexel(GpuRsmView view, ivec2 texel, out RsmTexel seen) {
+    vec3 direction;
+    return readRsmPlace(view, texel, seen, direction) && seen.albedo != vec3(0.0);
 }

@@ -83,19 +83,19 @@ shared::GpuRsmView forShaders(const Light& light, const RsmView& view, float uni
 
 std::vector<DrawnRsmView> drawnRsmViews(const Light& light, const Bounds& bounds,
                                         std::uint32_t size) {
-    std::vector<RsmView> views = rsmViews(light, bounds, size, [&](glm::vec3 p, glm::vec3 normal) {
-        return clearOf(p, normal, bounds);
-    });
-    if (light.kind == LightKind::Rectangle) // sends nothing behind itself
-        std::erase_if(views, [&](const RsmView& view) {
-            return glm::dot(view.forward, light.direction) < -0.99f;
-        });
+    const std::vector<RsmView> views =
+        rsmViews(light, bounds, size,
+                 [&](glm::vec3 p, glm::vec3 normal) { return clearOf(p, normal, bounds); });
     std::vector<DrawnRsmView> drawn;
-    for (RsmView& view : views) {
-        if (glm::dot(glm::cross(view.right, view.up), view.forward) > 0)
+    for (std::uint32_t k = 0; k < views.size(); ++k) {
+        RsmView view = views[k];
+        if (light.kind == LightKind::Rectangle && glm::dot(view.forward, light.direction) < -0.99f)
+            continue; // it sends nothing behind itself
+        const bool turned = glm::dot(glm::cross(view.right, view.up), view.forward) > 0;
+        if (turned)
             std::swap(view.right, view.up); // the same texels, in another order
         const float unit = depthUnit(view, bounds);
-        drawn.push_back({view, {toClip(view, unit)}, forShaders(light, view, unit)});
+        drawn.push_back({view, {toClip(view, unit)}, forShaders(light, view, unit), k, turned});
     }
     return drawn;
 }

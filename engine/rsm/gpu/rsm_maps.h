@@ -19,6 +19,8 @@ struct DrawnRsmView {
     RsmView view;               ///< `right` and `up` form a right-handed system with -forward
     SurfaceMapView drawn;       ///< the projection whose texels are those of the view
     shared::GpuRsmView shaders; ///< for the shaders that read its map
+    std::uint32_t index = 0;    ///< of the view among those of rsmViews()
+    bool turned = false;        ///< whether `right` and `up` are exchanged
 };
 
 /// The views of a light, as unitLight() makes it, over a scene with these bounds; all have the same

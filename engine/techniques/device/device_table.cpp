@@ -5,6 +5,7 @@
 #include "engine/techniques/illuminance/illuminance.h"
 #include "engine/techniques/lpv/gpu/device_lpv.h"
 #include "engine/techniques/lpv/lpv.h"
+#include "engine/techniques/photon_lattices/gpu/device_photons.h"
 #include "engine/techniques/photon_lattices/gpu/photon_pass.h"
 #include "engine/techniques/photon_lattices/photon_lattices.h"
 #include "engine/techniques/probes/gpu/device_probes.h"
@@ -29,10 +30,11 @@ struct Row {
     std::shared_ptr<LightPass> (*pass)(gpu::Device&, Viewport&, const IndirectField&) = nullptr;
 };
 
-constexpr std::array kRows = {
-    Row{&kIlluminanceTechnique, lightIlluminanceOnDevice}, Row{&kLpvTechnique, lightLpvOnDevice},
-    Row{&kProbesTechnique, lightProbesOnDevice, uploadMarchedPart},
-    Row{&kSparseProbesTechnique, lightSparseOnDevice}, Row{&kPhotonTechnique, nullptr, photonPass}};
+constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevice},
+                              Row{&kLpvTechnique, lightLpvOnDevice},
+                              Row{&kProbesTechnique, lightProbesOnDevice, uploadMarchedPart},
+                              Row{&kSparseProbesTechnique, lightSparseOnDevice},
+                              Row{&kPhotonTechnique, lightPhotonsOnDevice, photonPass}};
 
 } // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/photon_lattices/photon_sources.h"
 
+#include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
 #include "engine/rsm/reflective_shadow_map.h"
 #include "engine/scene/mesh/triangle_geometry.h"
@@ -105,19 +106,31 @@ std::uint32_t photonMapSide(const Light& light, const Bounds& bounds, std::uint3
     return std::max(std::uint32_t(std::ceil(side - 1e-9)), 1U);
 }
 
-PhotonMap traceLight(const PhotonScene& scene, const Light& light, const Progress& progress) {
+std::vector<PathStart> lightStarts(const PhotonScene& scene, const Light& light,
+                                   const Progress& progress, std::uint64_t* rays) {
     const std::uint32_t side = photonMapSide(light, scene.scene.bounds, scene.settings.photons);
     const ReflectiveShadowMap map =
         castRsm(scene.trace, scene.scene, light, side, progress, RsmTexels::All);
+    const std::uint32_t ofView = light.kind == LightKind::Rectangle ? std::max(side / 2, 1U) : side;
+    std::vector<PathStart> starts(map.texels.size());
+    parallelRanges(starts.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            starts[i] = startOf(scene.scene, map.texels[i], ofView);
+    });
+    if (rays)
+        *rays += map.rays;
+    return starts;
+}
+
+PhotonMap traceLight(const PhotonScene& scene, const Light& light, const Progress& progress) {
+    std::uint64_t rays = 0;
+    const std::vector<PathStart> starts = lightStarts(scene, light, progress, &rays);
     if (progress.cancelled())
         return {};
     PhotonMap photons = tracePaths(
-        scene, std::uint32_t(map.texels.size()),
-        [&](std::uint32_t path, PhotonMap&) {
-            return startOf(scene.scene, map.texels[path], side);
-        },
-        progress);
-    photons.fates.rays += map.rays;
+        scene, std::uint32_t(starts.size()),
+        [&](std::uint32_t path, PhotonMap&) { return starts[path]; }, progress);
+    photons.fates.rays += rays;
     return photons;
 }
 

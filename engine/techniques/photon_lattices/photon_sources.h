@@ -6,12 +6,18 @@
 #include "engine/techniques/photon_lattices/photon_paths.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace limn {
 
 /// Texels along a side of each view of a light's reflective shadow map, whose views share
 /// `photons`.
 std::uint32_t photonMapSide(const Light& light, const Bounds& bounds, std::uint32_t photons);
+
+/// The beginnings of a light's paths at the surfaces that it sees, in the order of castRsm(). Adds
+/// the number of rays to `rays`, if that is given. Incomplete when cancelled.
+std::vector<PathStart> lightStarts(const PhotonScene& scene, const Light& light,
+                                   const Progress& progress, std::uint64_t* rays = nullptr);
 
 /// Photons of a light as unitLight() makes it. Each texel of its reflective shadow map is a photon;
 /// the surface that it sees is the first vertex of its path and stores nothing, since direct light

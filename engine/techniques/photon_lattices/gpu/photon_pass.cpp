@@ -24,10 +24,10 @@ using shared::GpuSplat;
 namespace {
 
 static_assert(PHOTON_NO_ENTRY == kNoEntry && PHOTON_LATTICE_COUNT == kPhotonLattices);
-constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-constexpr std::array kTypes = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBuffer, kBuffer, kBuffer,
-                               kBuffer};
-static_assert(kTypes.size() == PHOTON_BINDINGS);
+constexpr VkDescriptorType kPassBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+constexpr std::array kPassTypes = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kPassBuffer, kPassBuffer,
+                                   kPassBuffer, kPassBuffer};
+static_assert(kPassTypes.size() == PHOTON_BINDINGS);
 
 /// What the shader reads, in the order of the bindings.
 struct PhotonData {
@@ -97,8 +97,8 @@ PhotonData dataOf(const IndirectField& field) {
 class PhotonPass : public LightPass {
 public:
     PhotonPass(gpu::Device& device, const Viewport& viewport, const PhotonData& data)
-        : m_setLayout(gpu::createSetLayout(device, kTypes)),
-          m_pool(gpu::createDescriptorPool(device, 1, kTypes)),
+        : m_setLayout(gpu::createSetLayout(device, kPassTypes)),
+          m_pool(gpu::createDescriptorPool(device, 1, kPassTypes)),
           m_set(gpu::allocateSet(device, m_pool, m_setLayout)),
           m_pipelines(device, viewport.frameLayout(), std::array{m_setLayout.handle},
                       kPhotonLightFrag, {}, "light of photons") {
@@ -111,10 +111,11 @@ public:
         m_buffers = {maker.filled(data.entries, "photon cells' entries"),
                      maker.filled(data.cells, "photon cells"), maker.filled(data.splats, "splats"),
                      maker.filled(data.buckets, "splats' buckets")};
-        gpu::writeBuffer(device, m_set, PHOTON_LATTICES, kTypes[0], m_photons.handle);
+        gpu::writeBuffer(device, m_set, PHOTON_LATTICES, kPassTypes[0], m_photons.handle);
         for (std::uint32_t k = 0; k < m_buffers.size(); ++k)
             if (m_buffers[k])
-                gpu::writeBuffer(device, m_set, PHOTON_ENTRIES + k, kBuffer, m_buffers[k].handle);
+                gpu::writeBuffer(device, m_set, PHOTON_ENTRIES + k, kPassBuffer,
+                                 m_buffers[k].handle);
             else
                 m_draws = false;
     }
