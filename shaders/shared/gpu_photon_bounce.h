@@ -11,11 +11,12 @@ namespace limn::shared {
 
 // Bindings of set 0 after those of the map
 #define PHOTON_MAP_RECEIVER 3u
-#define PHOTON_MAP_GLASS 4u    // per instance: transmission, index of refraction, 1 for a thin sheet, 0
+#define PHOTON_MAP_GLASS                                                                           \
+    4u // per instance: transmission, index of refraction, 1 for a thin sheet, 0
 #define PHOTON_MAP_BOUNCES 5u // GpuBounce per texel of all views, in the order of castRsm()
 #define PHOTON_MAP_BINDINGS 6u
 
-#define PHOTON_MAP_LANES 8 // of a group along each side of a map
+#define PHOTON_MAP_LANES 8    // of a group along each side of a map
 #define PHOTON_START_PAIRS 4u // as kStartPairs
 
 // limn::PhotonEvent; 0: absorbed
