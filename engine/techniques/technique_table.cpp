@@ -3,6 +3,7 @@
 
 #include "engine/techniques/ambient/ambient.h"
 #include "engine/techniques/illuminance/illuminance.h"
+#include "engine/techniques/light_skin/light_skin.h"
 #include "engine/techniques/lpv/lpv.h"
 #include "engine/techniques/photon_lattices/photon_lattices.h"
 #include "engine/techniques/probes/probes.h"
@@ -17,9 +18,9 @@
 
 namespace limn {
 
-static constexpr std::array kTechniques = {&kIlluminanceTechnique,  &kAmbientTechnique,
-                                           &kLpvTechnique,          &kProbesTechnique,
-                                           &kSparseProbesTechnique, &kPhotonTechnique};
+static constexpr std::array kTechniques = {
+    &kIlluminanceTechnique,  &kAmbientTechnique, &kLpvTechnique,      &kProbesTechnique,
+    &kSparseProbesTechnique, &kPhotonTechnique,  &kLightSkinTechnique};
 
 std::span<const Technique* const> techniques() {
     return kTechniques;

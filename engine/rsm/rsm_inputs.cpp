@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "engine/rsm/rsm_inputs.h"
+
+#include "engine/scene/light/unit_light.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace limn {
+
+/// The material with everything reset that does not affect its diffuse reflection.
+static Material diffusePart(Material m) {
+    const Material plain;
+    m.name.clear();
+    m.roughness = plain.roughness;
+    m.emission = plain.emission;
+    m.normalScale = plain.normalScale;
+    m.normalTexture = plain.normalTexture;
+    m.emissiveTexture = plain.emissiveTexture;
+    m.emissiveFlipbook = plain.emissiveFlipbook;
+    return m;
+}
+
+RsmSurfaces rsmSurfacesOf(const Scene& scene) {
+    RsmSurfaces s{scene.assets, {}, {}, scene.bounds};
+    for (const Instance& i : scene.instances)
+        s.instances.push_back({i.mesh, i.material, i.toWorld});
+    std::ranges::transform(scene.materials, std::back_inserter(s.materials), diffusePart);
+    return s;
+}
+
+std::vector<RsmSource> rsmSourcesOf(const Scene& scene) {
+    std::vector<RsmSource> sources;
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
+        if (const Light& light = scene.lights[i]; shines(light))
+            sources.push_back({i, unitLight(light), light.color * light.strength});
+    return sources;
+}
+
+} // namespace limn

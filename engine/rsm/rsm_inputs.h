@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+namespace limn {
+
+/// Surfaces of a scene as far as the diffuse light that they reflect depends on them. Equal ones
+/// have equal reflective shadow maps.
+struct RsmSurfaces {
+    struct Placed {
+        std::uint32_t mesh, material;
+        glm::mat4 toWorld;
+        bool operator==(const Placed&) const = default;
+    };
+    std::shared_ptr<const Assets> assets;
+    std::vector<Placed> instances;
+    std::vector<Material> materials; ///< as far as they affect diffuse reflection
+    Bounds bounds;
+    bool operator==(const RsmSurfaces&) const = default;
+};
+
+RsmSurfaces rsmSurfacesOf(const Scene& scene);
+
+/// A light that shines.
+struct RsmSource {
+    std::uint32_t index; ///< of Scene::lights
+    Light shape;         ///< unitLight()
+    glm::vec3 colour;    ///< colour times strength
+    bool operator==(const RsmSource&) const = default;
+};
+
+/// The scene's lights that shine, in their order.
+std::vector<RsmSource> rsmSourcesOf(const Scene& scene);
+
+} // namespace limn

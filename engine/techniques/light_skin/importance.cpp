@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/light_skin/importance.h"
+
+#include "engine/core/parallel.h"
+#include "engine/math/luminance.h"
+#include "engine/math/sampling.h"
+#include "engine/techniques/light_skin/lanes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace limn {
+
+std::vector<float> fluxLuminances(const VirtualLights& lights) {
+    std::vector<float> all(lights.size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = luminance(lights.fluxOf(i));
+    return all;
+}
+
+std::vector<float> importances(const VirtualLights& lights, const ViewSamples& samples,
+                               float nearest) {
+    std::vector<float> result = fluxLuminances(lights);
+    const float bound = nearest * nearest;
+    parallelRanges(lights.size(), 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t first = begin; first < end; first += kSkinLanes) {
+            const std::size_t count = std::min(kSkinLanes, end - first);
+            Lanes p[3], n[3];
+            for (std::size_t k = 0; k < 3; ++k) {
+                p[k] = loadLanes(lights.position[k], first, count);
+                n[k] = loadLanes(lights.normal[k], first, count);
+            }
+            Lanes sum{};
+            for (std::size_t v = 0; v < samples.size(); ++v) {
+                const glm::vec3 x = samples.position[v], m = samples.normal[v];
+                const Lanes dx = x.x - p[0], dy = x.y - p[1], dz = x.z - p[2];
+                const Lanes l2 = dx * dx + dy * dy + dz * dz;
+                const Lanes leaving = positive(n[0] * dx + n[1] * dy + n[2] * dz);
+                const Lanes arriving = positive(-(m.x * dx + m.y * dy + m.z * dz));
+                const Lanes bounded = l2 > bound ? l2 : Lanes{} + bound;
+                sum += leaving * arriving / (notBelow(l2, 1e-30f) * bounded);
+            }
+            for (std::size_t i = 0; i < count; ++i)
+                result[first + i] *= samples.size() == 0 ? 0 : sum[i] / float(samples.size());
+        }
+    });
+    return result;
+}
+
+RasterSums::RasterSums(const VirtualLights& lights, std::span<const float> values)
+    : m_columns(lights.columns), m_firstOfColumn(lights.columns + 1), m_within(lights.size()) {
+    double all = 0;
+    std::uint32_t next = 0;
+    for (std::uint32_t column = 0; column < lights.columns; ++column) {
+        m_firstOfColumn[column] = next;
+        double sum = 0;
+        for (; next < lights.size() && lights.cell[next] / lights.rows == column; ++next) {
+            sum += double(values[next]);
+            m_within[next] = sum;
+        }
+        all += sum;
+        m_columns[column] = all;
+    }
+    m_firstOfColumn[lights.columns] = next;
+}
+
+std::uint32_t RasterSums::find(glm::dvec2 u) const {
+    // The first column whose sum exceeds the place: columns without light are never found.
+    const double place = std::min(u.x, 1 - 1e-15) * total();
+    const auto column = std::size_t(std::min(std::ranges::upper_bound(m_columns, place),
+                                             std::ranges::lower_bound(m_columns, total())) -
+                                    m_columns.begin());
+    const auto begin = m_within.begin() + m_firstOfColumn[column],
+               end = m_within.begin() + m_firstOfColumn[column + 1];
+    const double ofColumn = *(end - 1);
+    const auto light = std::min(std::upper_bound(begin, end, std::min(u.y, 1 - 1e-15) * ofColumn),
+                                std::lower_bound(begin, end, ofColumn));
+    return std::uint32_t(light - m_within.begin());
+}
+
+std::uint64_t RasterSums::bytes() const {
+    return (m_columns.size() + m_within.size()) * sizeof(double) +
+           m_firstOfColumn.size() * sizeof(std::uint32_t);
+}
+
+ChosenLights allLights(const VirtualLights& lights) {
+    ChosenLights all{std::vector<std::uint32_t>(lights.size()),
+                     std::vector<float>(lights.size(), 1.f)};
+    std::iota(all.light.begin(), all.light.end(), 0U);
+    return all;
+}
+
+/// Point k of the sequence, shifted.
+static glm::dvec2 haltonPoint(std::uint32_t k, glm::dvec2 shift) {
+    const glm::dvec2 p =
+        glm::dvec2(double(radicalInverse(k, 2)), double(radicalInverse(k, 3))) + shift;
+    return p - glm::floor(p);
+}
+
+ChosenLights chooseLights(const VirtualLights& lights, std::span<const float> importance,
+                          const ChoiceOptions& options) {
+    if (lights.size() <= options.count)
+        return allLights(lights);
+    const std::vector<float> flux = fluxLuminances(lights);
+    const RasterSums important(lights, importance), bright(lights, flux);
+    const std::uint32_t count = options.count;
+    auto byFlux = std::uint32_t(std::lround(double(options.defence) * count));
+    if (!(important.total() > 0))
+        byFlux = options.defence > 0 ? count : 0;
+    if (!(bright.total() > 0) || (byFlux == 0 && !(important.total() > 0)))
+        return {};
+    // Each kind of draw has a sequence of its own: of one sequence, every tenth point has the same
+    // first digit.
+    std::vector<std::uint32_t> drawn;
+    for (std::uint32_t k = 0; k < count - byFlux; ++k)
+        drawn.push_back(important.find(haltonPoint(k, options.shift)));
+    for (std::uint32_t k = 0; k < byFlux; ++k)
+        drawn.push_back(bright.find(haltonPoint(k, options.shift)));
+    std::ranges::sort(drawn);
+    const double share = double(byFlux) / count; // of the draws as made, so that weights are exact
+    ChosenLights chosen;
+    for (std::size_t i = 0; i < drawn.size();) {
+        const std::uint32_t light = drawn[i];
+        std::size_t times = 0;
+        for (; i < drawn.size() && drawn[i] == light; ++i)
+            ++times;
+        double probability = share * double(flux[light]) / bright.total();
+        if (share < 1)
+            probability += (1 - share) * double(importance[light]) / important.total();
+        chosen.light.push_back(light);
+        chosen.weight.push_back(float(double(times) / (count * probability)));
+    }
+    return chosen;
+}
+
+} // namespace limn

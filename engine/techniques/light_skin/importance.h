@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/techniques/light_skin/view_samples.h"
+#include "engine/techniques/light_skin/virtual_lights.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace limn {
+
+/// Importance of each virtual light, >= 0: the mean over view samples of
+/// Phi (n . d)+ (-n_v . d)+ / max(nearest^2, |l|^2), where Phi is the luminance of its flux, d the
+/// unit direction to the sample and l the way. 0 without samples. `nearest` > 0 bounds the weight
+/// of what lies beside a sample [m]. Bischoff, Schwandt, Broll. 2017, equations 10 and 11.
+std::vector<float> importances(const VirtualLights& lights, const ViewSamples& samples,
+                               float nearest);
+
+/// Luminance of the flux of each light.
+std::vector<float> fluxLuminances(const VirtualLights& lights);
+
+/// Running sums of a value over the raster of virtual lights: down the columns, then along the
+/// columns' sums.
+class RasterSums {
+public:
+    RasterSums(const VirtualLights& lights, std::span<const float> values);
+
+    double total() const { return m_columns.empty() ? 0 : m_columns.back(); }
+    /// Sum over all columns up to and including `column`.
+    double upToColumn(std::uint32_t column) const { return m_columns[column]; }
+    /// Number of the light that a point of the unit square falls on, where each light has a part
+    /// of the square in proportion to its value. Precondition: total() > 0.
+    std::uint32_t find(glm::dvec2 u) const;
+    std::uint64_t bytes() const;
+
+private:
+    std::vector<double> m_columns;              ///< sums over the columns before and at each
+    std::vector<std::uint32_t> m_firstOfColumn; ///< number of the first light, one past the last
+    std::vector<double> m_within; ///< of each light, with those above it in the column
+};
+
+/// Lights that were chosen to stand for all.
+struct ChosenLights {
+    std::vector<std::uint32_t> light; ///< numbers, ascending
+    /// 1 / (N P), summed over the times that the light was drawn. The sum of weight times a value
+    /// is, on average, the sum of the value over all lights.
+    std::vector<float> weight;
+};
+
+struct ChoiceOptions {
+    std::uint32_t count = 1; ///< N
+    float defence = 0.1f;    ///< share of the draws that is by flux alone, [0, 1]
+    glm::dvec2 shift{0};     ///< of the points, modulo 1
+};
+
+/// Draws N lights, one part by importance, the other by flux; both by points of the Halton sequence
+/// in bases 2 and 3. All of them, with weight 1, where there are no more than N. Where nothing is
+/// important all are drawn by flux; none where `defence` is 0.
+ChosenLights chooseLights(const VirtualLights& lights, std::span<const float> importance,
+                          const ChoiceOptions& options);
+
+/// All lights with weight 1.
+ChosenLights allLights(const VirtualLights& lights);
+
+} // namespace limn

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/light_skin/light_caches.h"
+
+#include "engine/scene/mesh/triangle_geometry.h"
+#include "engine/scene/surface/specular.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace limn {
+
+std::uint64_t LightCaches::bytes() const {
+    std::uint64_t bytes = size() * (2 * sizeof(glm::vec3) + sizeof(float) + sizeof(std::uint32_t)) +
+                          instances.size() * sizeof(Placed);
+    std::set<const MeshSkin*> counted;
+    for (const Placed& placed : instances)
+        if (placed.skin && counted.insert(placed.skin.get()).second)
+            bytes += placed.skin->bytes();
+    return bytes;
+}
+
+std::size_t LightCaches::find(const Query& query,
+                              std::span<std::uint32_t, CacheList::kLength> list) const {
+    if (query.instance >= instances.size() || !instances[query.instance].skin)
+        return 0;
+    const Placed& placed = instances[query.instance];
+    const CacheList* found = nullptr;
+    if (const MeshSkin& skin = *placed.skin; !skin.vertexLists.empty() && query.mesh) {
+        const float weight[] = {1 - query.u - query.v, query.u, query.v};
+        const auto corner = std::size_t(std::ranges::max_element(weight) - weight);
+        found = &skin.vertexLists[query.mesh->triangle(query.triangle)[corner]];
+    } else {
+        found = skin.find(glm::vec3(placed.toObject * glm::vec4(query.position, 1)),
+                          glm::normalize(placed.normalToObject * query.normal));
+    }
+    if (!found)
+        return 0;
+    std::size_t count = 0;
+    for (; count < list.size() && found->cache[count] != CacheList::kNone; ++count)
+        list[count] = placed.first + found->cache[count];
+    return count;
+}
+
+float skinDiagonal(const Scene& scene) {
+    const float diagonal = glm::length(staticBounds(scene).size());
+    return diagonal > 0 ? diagonal : glm::length(scene.bounds.size());
+}
+
+float skinSpacing(const Scene& scene, float share) {
+    double area = 0;
+    for (const Instance& instance : scene.instances)
+        area += worldArea(scene, instance) * (isTwoSided(scene.materialOf(instance)) ? 2 : 1);
+    // A cube of half the spacing holds a quarter of its square.
+    const double least = 2 * std::sqrt(area / kMostCubes);
+    return std::max(share * skinDiagonal(scene), float(least));
+}
+
+/// The longest axis of the instance, as a share of that of its mesh.
+static float scaleOf(const Instance& instance) {
+    float scale = 0;
+    for (int k = 0; k < 3; ++k)
+        scale = std::max(scale, glm::length(glm::vec3(instance.toWorld[k])));
+    return scale;
+}
+
+LightCaches MeshSkins::place(const Scene& scene, const SkinLayout& layout) {
+    m_made = 0;
+    if (m_assets != scene.assets)
+        m_skins.clear();
+    m_assets = scene.assets;
+    LightCaches caches{.spacing = skinSpacing(scene, layout.spacing)};
+    std::map<Key, std::shared_ptr<const MeshSkin>> used;
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        caches.instances.push_back({.first = std::uint32_t(caches.size())});
+        const float scale = scaleOf(instance), distance = caches.spacing / scale;
+        if (!(scale > 0) || !(distance > 0) || !std::isfinite(distance))
+            continue;
+        const bool twoSided = isTwoSided(scene.materialOf(instance));
+        const Key key{instance.mesh, distance, layout.angle, twoSided, layout.vertexLists};
+        std::shared_ptr<const MeshSkin>& skin = used[key];
+        if (!skin) {
+            const auto kept = m_skins.find(key);
+            m_made += kept == m_skins.end() ? 1 : 0;
+            skin = kept != m_skins.end()
+                       ? kept->second
+                       : std::make_shared<const MeshSkin>(skinOf(scene.meshOf(instance),
+                                                                 {distance, layout.angle}, twoSided,
+                                                                 layout.vertexLists));
+        }
+        LightCaches::Placed& placed = caches.instances.back();
+        placed.skin = skin;
+        placed.toObject = glm::inverse(instance.toWorld);
+        placed.normalToObject = glm::transpose(glm::mat3(instance.toWorld));
+        for (const MeshCache& cache : skin->caches) {
+            const glm::vec3 normal = instance.normalToWorld * cache.normal;
+            const float stretch = glm::length(normal); // of an area with that normal
+            caches.position.emplace_back(instance.toWorld * glm::vec4(cache.position, 1));
+            caches.normal.push_back(stretch > 0 ? normal / stretch : glm::vec3(0, 1, 0));
+            caches.area.push_back(cache.area * stretch);
+            caches.instance.push_back(i);
+        }
+    }
+    m_skins = std::move(used);
+    return caches;
+}
+
+float glossExponent(float roughness) {
+    const float alpha = roughness * roughness;
+    return std::clamp((2 / std::max(alpha * alpha, 1e-6f) - 2) / 4, 1.f, 500.f);
+}
+
+std::vector<float> glossExponents(const Scene& scene, const LightCaches& caches) {
+    std::vector<float> exponents;
+    for (std::size_t c = 0; c < caches.size(); ++c) {
+        const std::uint32_t i = caches.instance[c];
+        const MeshCache& cache = caches.instances[i].skin->caches[c - caches.instances[i].first];
+        exponents.push_back(glossExponent(
+            surfaceGloss(scene, scene.instances[i], cache.triangle, cache.u, cache.v).roughness));
+    }
+    return exponents;
+}
+
+} // namespace limn

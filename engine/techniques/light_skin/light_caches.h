@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/scene.h"
+#include "engine/techniques/light_skin/mesh_skin.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// The light caches of all objects of a scene, in the world.
+struct LightCaches {
+    /// An instance with the caches of its mesh.
+    struct Placed {
+        std::shared_ptr<const MeshSkin> skin;
+        std::uint32_t first = 0; ///< number of its first cache
+        glm::mat4 toObject{1};
+        glm::mat3 normalToObject{1}; ///< not normalised
+    };
+    std::vector<Placed> instances; ///< by number of the instance
+    float spacing = 1;             ///< largest distance of a surface point from a cache [m]
+
+    std::vector<glm::vec3> position; ///< [m]
+    std::vector<glm::vec3> normal;   ///< unit
+    std::vector<float> area;         ///< of the surfaces that the cache stands for [m^2]
+    std::vector<std::uint32_t> instance;
+
+    std::size_t size() const { return position.size(); }
+    std::uint64_t bytes() const; ///< with those of the meshes
+
+    /// Number of caches in the list of a surface point, which are written to `list`; 0: it has
+    /// none. `triangle`, `u` and `v` choose the vertex whose list is read, where these have lists.
+    struct Query {
+        std::uint32_t instance = 0, triangle = 0;
+        float u = 0, v = 0;
+        glm::vec3 position{0};
+        glm::vec3 normal{0};
+        const Mesh* mesh = nullptr;
+    };
+    std::size_t find(const Query& query, std::span<std::uint32_t, CacheList::kLength> list) const;
+};
+
+/// How caches are spread over a scene.
+struct SkinLayout {
+    float spacing = 0.02f; ///< as a share of the diagonal of the static objects
+    float angle = 0.5f;    ///< between normals of surfaces that share a cache [rad]
+    bool vertexLists = false;
+    bool operator==(const SkinLayout&) const = default;
+};
+
+/// The diagonal of the box of the static objects, or of all where none is static [m].
+float skinDiagonal(const Scene& scene);
+
+/// The largest distance of a surface point from a cache [m]: as asked, or more where there would be
+/// more than kMostCubes cubes.
+float skinSpacing(const Scene& scene, float share);
+inline constexpr double kMostCubes = 1 << 18;
+
+/// Caches of meshes, kept by mesh, spacing and sides, in object space. They do not change where
+/// objects move. Not thread-safe.
+class MeshSkins {
+public:
+    /// The caches of all objects of a scene, with those of meshes made where they are missing.
+    /// Forgets those that it does not need.
+    LightCaches place(const Scene& scene, const SkinLayout& layout);
+
+    /// Number of meshes whose caches place() made last.
+    std::uint32_t made() const { return m_made; }
+
+private:
+    /// Mesh, distance, angle, two-sided, lists of vertices.
+    using Key = std::tuple<std::uint32_t, float, float, bool, bool>;
+    std::shared_ptr<const Assets> m_assets;
+    std::map<Key, std::shared_ptr<const MeshSkin>> m_skins;
+    std::uint32_t m_made = 0;
+};
+
+/// The exponent of a cosine lobe about the mirrored direction that is as narrow as the reflection
+/// by facets of that roughness [0, 1]: (2 / alpha^2 - 2) / 4, alpha = roughness^2, from 1 to 500.
+float glossExponent(float roughness);
+
+/// glossExponent() at each cache of the scene.
+std::vector<float> glossExponents(const Scene& scene, const LightCaches& caches);
+
+} // namespace limn
