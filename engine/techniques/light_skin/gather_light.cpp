@@ -14,6 +14,9 @@ namespace {
 
 constexpr float kGatherPi = std::numbers::pi_v<float>;
 
+/// Squares of distances count as at least this [m^2]; that to the fourth power is still a float.
+constexpr float kMinDistance2 = 1e-18f;
+
 /// ProxySums of each lane.
 struct LaneSums {
     std::array<Lanes, 3> light{}, first{}, second{};
@@ -80,7 +83,8 @@ CacheSums gatherLight(const GatheredFrom& from, const GatheringCache& cache) {
         }
         const Lanes area = loadLanes(from.area, i, kSkinLanes),
                     weight = loadLanes(from.weight, i, kSkinLanes);
-        const Lanes r2 = notBelow(way[0] * way[0] + way[1] * way[1] + way[2] * way[2], 1e-30f);
+        const Lanes r2 =
+            notBelow(way[0] * way[0] + way[1] * way[1] + way[2] * way[2], kMinDistance2);
         const Lanes transfer =
             positive(leaving) * positive(dot(way, cache.normal)) / (r2 * (area + kGatherPi * r2));
         diffuse.add(flux, transfer, weight * (kProxyEpsilon + area * transfer), way);

@@ -109,7 +109,8 @@ std::optional<Cluster> joined(const Cluster& a, const Cluster& b, const SkinSpac
                  .cube = a.cube};
     extend(both.bounds, b.bounds);
     const auto n = both.normal();
-    if (!n || farthest(both.bounds, both.position()) > spacing.distance)
+    // A tenth is left for the way of the cache to its surfaces.
+    if (!n || farthest(both.bounds, both.position()) > 0.9f * spacing.distance)
         return {};
     both.widest = std::max(angleBetween(*n, *na) + a.widest, angleBetween(*n, *nb) + b.widest);
     if (both.widest > 2 * spacing.angle)
@@ -212,26 +213,21 @@ public:
         m_tree.emplace(m_positions, m_normals, 0.f); // by distance alone
     }
 
-    /// Calls visit(cache) for the nearest caches in order until it returns false.
-    template <class Visit>
-    void nearest(glm::vec3 p, glm::vec3 normal, const Visit& visit) const {
-        std::array<NearestPoint::Near, 64> near;
-        const std::size_t found = m_tree->findSome(p, normal, near);
-        for (std::size_t i = 0; i < found; ++i)
-            if (!visit(near[i].point))
-                return;
-    }
-
     CacheList listAt(glm::vec3 p, glm::vec3 normal) const {
         CacheList list;
-        list.cache.fill(CacheList::kNone);
-        std::size_t count = 0;
-        for (const bool facing : {true, false})
-            nearest(p, normal, [&](std::uint32_t c) {
-                if ((glm::dot(m_normals[c], normal) > 0) == facing)
-                    list.cache[count++] = c;
-                return count < CacheList::kLength;
-            });
+        for (const std::size_t asked : {24, 64}) {
+            list.cache.fill(CacheList::kNone);
+            std::size_t count = 0;
+            for (const bool facing : {true, false}) {
+                nearest(p, normal, asked, [&](std::uint32_t c) {
+                    if ((glm::dot(m_normals[c], normal) > 0) == facing)
+                        list.cache[count++] = c;
+                    return count < CacheList::kLength;
+                });
+                if (facing && count == CacheList::kLength)
+                    return list;
+            }
+        }
         return list;
     }
 
@@ -239,18 +235,32 @@ public:
     /// the nearest.
     std::uint32_t fitting(glm::vec3 p, glm::vec3 normal, float minCosine) const {
         std::uint32_t found = CacheList::kNone, first = CacheList::kNone;
-        nearest(p, normal, [&](std::uint32_t c) {
-            if (first == CacheList::kNone)
-                first = c;
-            if (glm::dot(m_normals[c], normal) < minCosine)
-                return true;
-            found = c;
-            return false;
-        });
-        return found == CacheList::kNone ? first : found;
+        for (const std::size_t asked : {4, 64}) {
+            nearest(p, normal, asked, [&](std::uint32_t c) {
+                if (first == CacheList::kNone)
+                    first = c;
+                if (glm::dot(m_normals[c], normal) < minCosine)
+                    return true;
+                found = c;
+                return false;
+            });
+            if (found != CacheList::kNone)
+                return found;
+        }
+        return first;
     }
 
 private:
+    /// Calls visit(cache) for up to 64 nearest caches in order until it returns false.
+    template <class Visit>
+    void nearest(glm::vec3 p, glm::vec3 normal, std::size_t count, const Visit& visit) const {
+        std::array<NearestPoint::Near, 64> near;
+        const std::size_t found = m_tree->findSome(p, normal, std::span(near).first(count));
+        for (std::size_t i = 0; i < found; ++i)
+            if (!visit(near[i].point))
+                return;
+    }
+
     std::vector<glm::vec3> m_positions, m_normals;
     std::optional<NearestPoint> m_tree;
 };
