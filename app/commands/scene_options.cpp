@@ -5,6 +5,7 @@
 #include "engine/core/log.h"
 #include "engine/files/project_file.h"
 #include "engine/files/sky_file.h"
+#include "engine/gallery/coloured_street.h"
 #include "engine/gallery/gallery.h"
 #include "engine/scene/dynamic_spec.h"
 #include "engine/scene/light/light_spec.h"
@@ -97,14 +98,17 @@ static Sky& skyOf(Document& document) {
     return std::get<Sky>(document.objects.at(addObject(document, Sky{})));
 }
 
-static constexpr std::string_view kGenerated = "generated:";
+static constexpr std::string_view kGenerated = "generated:", kStreet = "coloured-street";
 
 static Result<ImportedScene> openGenerated(const std::string& name) {
+    if (name.substr(kGenerated.size()) == kStreet)
+        return importedScene(colouredStreet());
     std::uint64_t seed = 0;
     const char* const end = name.data() + name.size();
     const auto [rest, error] = std::from_chars(name.data() + kGenerated.size(), end, seed);
     if (error != std::errc() || rest != end)
-        return fail(name + ": a generated scene is named by a seed, as in generated:17");
+        return fail(name + ": a generated scene is named by a seed, as in generated:17, or is "
+                           "generated:coloured-street");
     return importedScene(generateScene(seed));
 }
 

@@ -3,6 +3,7 @@
 
 #include "engine/core/hash.h"
 #include "engine/gallery/blocks.h"
+#include "engine/gallery/coloured_street.h"
 #include "engine/gallery/hostile_scene.h"
 #include "engine/gallery/random_stream.h"
 #include "engine/math/sampling.h"
@@ -158,6 +159,28 @@ TEST(Gallery, NoLightReachesTheSealedRoom) {
         ++rooms;
     }
     EXPECT_GT(rooms, kTraced / 20);
+}
+
+// The sun lights planes, car and ground; the fronts of the houses opposite see no sun.
+TEST(Gallery, TheColouredStreetLightsTheHousesOppositeByItsPlanes) {
+    const GeneratedScene made = colouredStreet();
+    for (const Mesh& mesh : made.assets->meshes)
+        expectSound(mesh);
+    const Scene scene = flatten(made.document, made.assets);
+    ASSERT_EQ(scene.lights.size(), 1U);
+    const TraceScene trace(scene);
+    const glm::vec3 toSun = -scene.lights[0].direction;
+    const auto inSun = [&](glm::vec3 p, glm::vec3 normal) {
+        return glm::dot(normal, toSun) > 0 && !trace.occluded({trace.clearOf(p, normal), toSun});
+    };
+    for (const float x : {12.f, 21.f, 30.f}) {
+        EXPECT_TRUE(inSun({x, 2, -4.4f}, {0, 0, 1})) << "a plane";
+        EXPECT_FALSE(inSun({x, 3, 5}, {0, 0, -1})) << "the house opposite";
+        EXPECT_FALSE(trace.blocked({x, 2, -4.3f}, {x, 3, 4.9f})) << "they see each other";
+    }
+    EXPECT_TRUE(inSun({17, 1.5f, -3}, {0, 1, 0})) << "the car";
+    EXPECT_TRUE(std::ranges::any_of(scene.instances, [](const Instance& i) { return i.dynamic; }));
+    EXPECT_LT(lookAround(trace, scene.cameras.at(0).eye).backs, 0.1);
 }
 
 TEST(Gallery, TheSameSeedGivesTheSameScene) {

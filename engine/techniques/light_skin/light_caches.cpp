@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/light_skin/light_caches.h"
 
+#include "engine/core/parallel.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/scene/surface/specular.h"
 
@@ -69,36 +70,58 @@ static float scaleOf(const Instance& instance) {
     return scale;
 }
 
-LightCaches MeshSkins::place(const Scene& scene, const SkinLayout& layout) {
-    m_made = 0;
+std::optional<MeshSkins::Key> MeshSkins::keyOf(const Scene& scene, const Instance& instance,
+                                               const SkinLayout& layout, float spacing) {
+    const float scale = scaleOf(instance), distance = spacing / scale;
+    if (!(scale > 0) || !(distance > 0) || !std::isfinite(distance))
+        return {};
+    return Key{instance.mesh, distance, layout.angle, isTwoSided(scene.materialOf(instance)),
+               layout.vertexLists};
+}
+
+void MeshSkins::makeMissing(const Scene& scene, const SkinLayout& layout, float spacing) {
     if (m_assets != scene.assets)
         m_skins.clear();
     m_assets = scene.assets;
+    Skins used;
+    std::vector<Skins::value_type*> missing;
+    for (const Instance& instance : scene.instances) {
+        const std::optional<Key> key = keyOf(scene, instance, layout, spacing);
+        if (!key)
+            continue;
+        const auto [place, added] = used.try_emplace(*key);
+        if (!added)
+            continue;
+        if (const auto kept = m_skins.find(*key); kept != m_skins.end())
+            place->second = kept->second;
+        else
+            missing.push_back(&*place);
+    }
+    parallelRanges(missing.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto& [mesh, distance, angle, twoSided, vertexLists] = missing[i]->first;
+            missing[i]->second = std::make_shared<const MeshSkin>(
+                skinOf(scene.assets->meshes[mesh], {distance, angle}, twoSided, vertexLists));
+        }
+    });
+    m_made = std::uint32_t(missing.size());
+    m_skins = std::move(used);
+}
+
+LightCaches MeshSkins::place(const Scene& scene, const SkinLayout& layout) {
     LightCaches caches{.spacing = skinSpacing(scene, layout.spacing)};
-    std::map<Key, std::shared_ptr<const MeshSkin>> used;
+    makeMissing(scene, layout, caches.spacing);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         caches.instances.push_back({.first = std::uint32_t(caches.size())});
-        const float scale = scaleOf(instance), distance = caches.spacing / scale;
-        if (!(scale > 0) || !(distance > 0) || !std::isfinite(distance))
+        const std::optional<Key> key = keyOf(scene, instance, layout, caches.spacing);
+        if (!key)
             continue;
-        const bool twoSided = isTwoSided(scene.materialOf(instance));
-        const Key key{instance.mesh, distance, layout.angle, twoSided, layout.vertexLists};
-        std::shared_ptr<const MeshSkin>& skin = used[key];
-        if (!skin) {
-            const auto kept = m_skins.find(key);
-            m_made += kept == m_skins.end() ? 1 : 0;
-            skin = kept != m_skins.end()
-                       ? kept->second
-                       : std::make_shared<const MeshSkin>(skinOf(scene.meshOf(instance),
-                                                                 {distance, layout.angle}, twoSided,
-                                                                 layout.vertexLists));
-        }
         LightCaches::Placed& placed = caches.instances.back();
-        placed.skin = skin;
+        placed.skin = m_skins.at(*key);
         placed.toObject = glm::inverse(instance.toWorld);
         placed.normalToObject = glm::transpose(glm::mat3(instance.toWorld));
-        for (const MeshCache& cache : skin->caches) {
+        for (const MeshCache& cache : placed.skin->caches) {
             const glm::vec3 normal = instance.normalToWorld * cache.normal;
             const float stretch = glm::length(normal); // of an area with that normal
             caches.position.emplace_back(instance.toWorld * glm::vec4(cache.position, 1));
@@ -107,7 +130,6 @@ LightCaches MeshSkins::place(const Scene& scene, const SkinLayout& layout) {
             caches.instance.push_back(i);
         }
     }
-    m_skins = std::move(used);
     return caches;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -79,8 +80,15 @@ public:
 private:
     /// Mesh, distance, angle, two-sided, lists of vertices.
     using Key = std::tuple<std::uint32_t, float, float, bool, bool>;
+    using Skins = std::map<Key, std::shared_ptr<const MeshSkin>>;
+
+    /// None for an instance without extent.
+    static std::optional<Key> keyOf(const Scene& scene, const Instance& instance,
+                                    const SkinLayout& layout, float spacing);
+    void makeMissing(const Scene& scene, const SkinLayout& layout, float spacing);
+
     std::shared_ptr<const Assets> m_assets;
-    std::map<Key, std::shared_ptr<const MeshSkin>> m_skins;
+    Skins m_skins;
     std::uint32_t m_made = 0;
 };
 
