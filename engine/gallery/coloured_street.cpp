@@ -55,7 +55,7 @@ Mesh boxMesh(dvec3 lower, dvec3 upper) {
     return mesh;
 }
 
-void addHouses(StreetMaker& maker, std::uint32_t plaster) {
+void addHouses(StreetMaker& maker, std::uint32_t plaster, std::uint32_t brick) {
     constexpr std::array kWidths = {9., 7., 11., 6., 9.};
     constexpr std::array kHeights = {8., 6.5, 9., 7., 8.};
     double x = 0;
@@ -67,7 +67,7 @@ void addHouses(StreetMaker& maker, std::uint32_t plaster) {
         maker.add("Sunny house " + number,
                   boxMesh({x, 0, -kHalfWidth - kDepth},
                           {x + kWidths[k], kHeights[kWidths.size() - 1 - k], -kHalfWidth}),
-                  plaster);
+                  brick);
         x += kWidths[k];
     }
 }
@@ -77,19 +77,20 @@ void addHouses(StreetMaker& maker, std::uint32_t plaster) {
 GeneratedScene colouredStreet() {
     StreetMaker maker;
     const std::uint32_t plaster = maker.addMaterial("Plaster", glm::vec3(0.7f)),
-                        asphalt = maker.addMaterial("Asphalt", glm::vec3(0.25f));
+                        brick = maker.addMaterial("Brick", {0.3f, 0.25f, 0.2f}),
+                        asphalt = maker.addMaterial("Asphalt", glm::vec3(0.2f));
     Mesh ground;
     addQuad(ground, {-4, 0, -kHalfWidth - kDepth}, {-4, 0, kHalfWidth + kDepth},
             {kLength + 4, 0, kHalfWidth + kDepth}, {kLength + 4, 0, -kHalfWidth - kDepth});
     maker.add("Ground", std::move(ground), asphalt);
-    addHouses(maker, plaster);
+    addHouses(maker, plaster, brick);
     constexpr std::array<std::pair<const char*, glm::vec3>, 3> kPlanes = {
         {{"Red plane", {0.85f, 0.05f, 0.05f}},
          {"Green plane", {0.05f, 0.7f, 0.1f}},
          {"Blue plane", {0.05f, 0.1f, 0.8f}}}};
     for (std::size_t k = 0; k < kPlanes.size(); ++k) {
         const double x = 10 + 9 * double(k);
-        maker.add(kPlanes[k].first, boxMesh({x, 0.1, -4.5}, {x + 4, 3.6, -4.4}),
+        maker.add(kPlanes[k].first, boxMesh({x, 0.1, -4.5}, {x + 6, 5.1, -4.4}),
                   maker.addMaterial(kPlanes[k].first, kPlanes[k].second));
     }
     Mesh car;
@@ -103,14 +104,14 @@ GeneratedScene colouredStreet() {
     sun.name = "Sun";
     sun.kind = LightKind::Directional;
     sun.direction = -glm::normalize(glm::vec3(0.3f, 1.2f, 1));
-    sun.strength = 100;
+    sun.strength = 15;
     addObject(maker.scene.document, sun);
     Sky dark;
     dark.radiance = glm::vec3(0);
     addObject(maker.scene.document, dark);
     Camera camera;
-    camera.eye = {1.5f, 2.2f, -2.5f};
-    camera.target = {24, 2.2f, 2};
+    camera.eye = {5, 2.2f, -2.5f};
+    camera.target = {20, 2.4f, 3};
     addObject(maker.scene.document, camera);
     maker.scene.kind = SceneKind::Street;
     maker.scene.assets = maker.assets;
