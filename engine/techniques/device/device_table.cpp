@@ -3,6 +3,8 @@
 
 #include "engine/techniques/illuminance/gpu/device_illuminance.h"
 #include "engine/techniques/illuminance/illuminance.h"
+#include "engine/techniques/light_skin/gpu/skin_pass.h"
+#include "engine/techniques/light_skin/light_skin.h"
 #include "engine/techniques/lpv/gpu/device_lpv.h"
 #include "engine/techniques/lpv/lpv.h"
 #include "engine/techniques/photon_lattices/gpu/device_photons.h"
@@ -31,6 +33,7 @@ struct Row {
 };
 
 constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevice},
+                              Row{&kLightSkinTechnique, nullptr, uploadSkinPart},
                               Row{&kLpvTechnique, lightLpvOnDevice},
                               Row{&kProbesTechnique, lightProbesOnDevice, uploadMarchedPart},
                               Row{&kSparseProbesTechnique, lightSparseOnDevice},

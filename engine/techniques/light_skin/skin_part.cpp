@@ -61,9 +61,6 @@ WayToProxy wayToProxy(const SkinWeights& weights, glm::vec3 position, float near
     return {way / r, 1 / (4 * kPartPi * r * r)};
 }
 
-/// Proxies nearer to a point than this share of the spacing light it as from there.
-constexpr float kNearestProxy = 1e-3f;
-
 } // namespace
 
 SkinWeights skinWeights(const LightCaches& caches, std::span<const std::uint32_t> list,

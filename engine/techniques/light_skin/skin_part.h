@@ -16,6 +16,9 @@
 
 namespace limn {
 
+/// Proxies nearer to a point than this share of the spacing light it as from there.
+inline constexpr float kNearestProxy = 1e-3f;
+
 /// The caches that light a surface point, with weights whose sum is 1.
 struct SkinWeights {
     std::size_t count = 0;
