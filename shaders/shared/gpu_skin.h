@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Light caches on objects and their proxy lights. Read by C++ and GLSL. Each row is 16 bytes, so std430 and the C++
-// layout agree.
+// Light caches on objects and their proxy lights. Read by C++ and GLSL. Each row is 16 bytes, so
+// std430 and the C++ layout agree.
 #ifndef SHADERS_SHARED_GPU_SKIN_H
 #define SHADERS_SHARED_GPU_SKIN_H
 
@@ -25,7 +25,7 @@ using uint = std::uint32_t;
 #define SKIN_BINDINGS 5u
 
 #define SKIN_NO_CACHE 0xffffffffu // fills lists of meshes with fewer than 16 caches
-#define SKIN_LIST_BITS 5u // of GpuSkinCube::lists; the lower ones hold the number of lists
+#define SKIN_LIST_BITS 5u         // of GpuSkinCube::lists; the lower ones hold the number of lists
 
 // clang-format off
 struct GpuSkinCache {

@@ -12,23 +12,23 @@ namespace limn {
 namespace {
 
 /// The chosen lights of each object.
-std::map<std::uint32_t, GatheredFrom> byInstance(const SkinLight& light) {
+std::map<std::uint32_t, GatheringLights> byInstance(const SkinLight& light) {
     std::map<std::uint32_t, ChosenLights> chosen;
     for (std::size_t i = 0; i < light.chosen.light.size(); ++i) {
         ChosenLights& part = chosen[light.lights.instance[light.chosen.light[i]]];
         part.light.push_back(light.chosen.light[i]);
         part.weight.push_back(light.chosen.weight[i]);
     }
-    std::map<std::uint32_t, GatheredFrom> from;
+    std::map<std::uint32_t, GatheringLights> from;
     for (const auto& [instance, part] : chosen)
-        from.emplace(instance, gatheredFrom(light.lights, part));
+        from.emplace(instance, gatheringLights(light.lights, part));
     return from;
 }
 
 /// What the numbers of a reading receive of virtual lights, times their weights and the proxies'
 /// flux per light.
 glm::dvec3 valueOfLights(const SkinState& state, const SkinInputs& inputs,
-                         const FieldReading& reading, const GatheredFrom& from) {
+                         const FieldReading& reading, const GatheringLights& from) {
     const std::size_t caches = state.caches()->size();
     const glm::vec3* eye = inputs.isGlossy() ? &inputs.view->camera.eye : nullptr;
     glm::dvec3 sum(0);

@@ -49,8 +49,8 @@ Lanes dot(const std::array<Lanes, 3>& a, glm::vec3 b) {
 
 } // namespace
 
-GatheredFrom gatheredFrom(const VirtualLights& lights, const ChosenLights& chosen) {
-    GatheredFrom from;
+GatheringLights gatheringLights(const VirtualLights& lights, const ChosenLights& chosen) {
+    GatheringLights from;
     const std::size_t padded = (chosen.light.size() + kSkinLanes - 1) / kSkinLanes * kSkinLanes;
     from.area.assign(padded, 0);
     from.weight.assign(padded, 0);
@@ -70,7 +70,7 @@ GatheredFrom gatheredFrom(const VirtualLights& lights, const ChosenLights& chose
     return from;
 }
 
-CacheSums gatherLight(const GatheredFrom& from, const GatheringCache& cache) {
+CacheSums gatherLight(const GatheringLights& from, const GatheringCache& cache) {
     LaneSums diffuse, glossy;
     const bool glosses = cache.mirrored != glm::vec3(0);
     for (std::size_t i = 0; i < from.weight.size(); i += kSkinLanes) {
@@ -119,7 +119,7 @@ GatheringCache gatheringCache(const LightCaches& caches, std::span<const float> 
 }
 
 void gatherLights(const LightCaches& caches, std::span<const float> exponents,
-                  const GatheredFrom& from, const glm::vec3* eye, std::vector<CacheSums>& sums,
+                  const GatheringLights& from, const glm::vec3* eye, std::vector<CacheSums>& sums,
                   const Progress& progress) {
     sums.resize(caches.size());
     parallelRanges(caches.size(), 16, progress, "light caches",

@@ -16,13 +16,13 @@
 namespace limn {
 
 /// Chosen virtual lights in the order in which they are read, padded with lights that send nothing.
-struct GatheredFrom {
+struct GatheringLights {
     std::array<std::vector<float>, 3> position, normal;
     std::array<std::vector<float>, 3> flux; ///< times the weight
     std::vector<float> area, weight;
     std::size_t bytes() const { return 11 * sizeof(float) * weight.size(); }
 };
-GatheredFrom gatheredFrom(const VirtualLights& lights, const ChosenLights& chosen);
+GatheringLights gatheringLights(const VirtualLights& lights, const ChosenLights& chosen);
 
 /// What a cache receives of one kind of light, from a light of colour 1 and strength 1.
 struct ProxySums {
@@ -54,11 +54,11 @@ inline constexpr float kProxyEpsilon = 1e-6f;
 ///   G = sum g Phi (k + 2) / 2 pi cos^k cos+ cos+ / (A + pi r^2),   w = g (epsilon + cos^k F)
 /// with F = A cos+ cos+ / (A + pi r^2). Bischoff, Schwandt, Broll. 2017, equations 3 to 6 and 13 to
 /// 15, the last of which lacks the cosines.
-CacheSums gatherLight(const GatheredFrom& from, const GatheringCache& cache);
+CacheSums gatherLight(const GatheringLights& from, const GatheringCache& cache);
 
 /// The same for all caches. `eye` null: nothing glossy. `sums` is incomplete when cancelled.
 void gatherLights(const LightCaches& caches, std::span<const float> exponents,
-                  const GatheredFrom& from, const glm::vec3* eye, std::vector<CacheSums>& sums,
+                  const GatheringLights& from, const glm::vec3* eye, std::vector<CacheSums>& sums,
                   const Progress& progress = {});
 
 /// Cache `c` of those, as it gathers.

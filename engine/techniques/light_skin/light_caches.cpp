@@ -27,11 +27,11 @@ std::uint64_t LightCaches::bytes() const {
 }
 
 std::size_t LightCaches::find(const Query& query,
-                              std::span<std::uint32_t, CacheList::kLength> list) const {
+                              std::span<std::uint32_t, NearestCaches::kLength> list) const {
     if (query.instance >= instances.size() || !instances[query.instance].skin)
         return 0;
     const Placed& placed = instances[query.instance];
-    const CacheList* found = nullptr;
+    const NearestCaches* found = nullptr;
     if (const MeshSkin& skin = *placed.skin; !skin.vertexLists.empty() && query.mesh) {
         const float weight[] = {1 - query.u - query.v, query.u, query.v};
         const auto corner = std::size_t(std::ranges::max_element(weight) - weight);
@@ -43,7 +43,7 @@ std::size_t LightCaches::find(const Query& query,
     if (!found)
         return 0;
     std::size_t count = 0;
-    for (; count < list.size() && found->cache[count] != CacheList::kNone; ++count)
+    for (; count < list.size() && found->cache[count] != NearestCaches::kNone; ++count)
         list[count] = placed.first + found->cache[count];
     return count;
 }

@@ -47,7 +47,8 @@ struct LightCaches {
         glm::vec3 normal{0};
         const Mesh* mesh = nullptr;
     };
-    std::size_t find(const Query& query, std::span<std::uint32_t, CacheList::kLength> list) const;
+    std::size_t find(const Query& query,
+                     std::span<std::uint32_t, NearestCaches::kLength> list) const;
 };
 
 /// How caches are spread over a scene.

@@ -213,18 +213,18 @@ public:
         m_tree.emplace(m_positions, m_normals, 0.f); // by distance alone
     }
 
-    CacheList listAt(glm::vec3 p, glm::vec3 normal) const {
-        CacheList list;
+    NearestCaches listAt(glm::vec3 p, glm::vec3 normal) const {
+        NearestCaches list;
         for (const std::size_t asked : {24, 64}) {
-            list.cache.fill(CacheList::kNone);
+            list.cache.fill(NearestCaches::kNone);
             std::size_t count = 0;
             for (const bool facing : {true, false}) {
                 nearest(p, normal, asked, [&](std::uint32_t c) {
                     if ((glm::dot(m_normals[c], normal) > 0) == facing)
                         list.cache[count++] = c;
-                    return count < CacheList::kLength;
+                    return count < NearestCaches::kLength;
                 });
-                if (facing && count == CacheList::kLength)
+                if (facing && count == NearestCaches::kLength)
                     return list;
             }
         }
@@ -234,17 +234,17 @@ public:
     /// The nearest cache whose normal lies within the angle of that cosine; where there is none,
     /// the nearest.
     std::uint32_t fitting(glm::vec3 p, glm::vec3 normal, float minCosine) const {
-        std::uint32_t found = CacheList::kNone, first = CacheList::kNone;
+        std::uint32_t found = NearestCaches::kNone, first = NearestCaches::kNone;
         for (const std::size_t asked : {4, 64}) {
             nearest(p, normal, asked, [&](std::uint32_t c) {
-                if (first == CacheList::kNone)
+                if (first == NearestCaches::kNone)
                     first = c;
                 if (glm::dot(m_normals[c], normal) < minCosine)
                     return true;
                 found = c;
                 return false;
             });
-            if (found != CacheList::kNone)
+            if (found != NearestCaches::kNone)
                 return found;
         }
         return first;
@@ -341,7 +341,7 @@ MeshSkin skinOf(const Mesh& mesh, const SkinSpacing& spacing, bool twoSided, boo
     return skin;
 }
 
-const CacheList* MeshSkin::find(glm::vec3 position, glm::vec3 normal) const {
+const NearestCaches* MeshSkin::find(glm::vec3 position, glm::vec3 normal) const {
     if (cubes.empty())
         return nullptr;
     // Surfaces on a plane between two cubes belong to the one below them.
@@ -362,7 +362,7 @@ const CacheList* MeshSkin::find(glm::vec3 position, glm::vec3 normal) const {
 std::uint64_t MeshSkin::bytes() const {
     return caches.size() * sizeof(MeshCache) + cubes.size() * sizeof(CubeLists) +
            cubeBins.size() * sizeof(glm::vec3) +
-           (lists.size() + vertexLists.size()) * sizeof(CacheList);
+           (lists.size() + vertexLists.size()) * sizeof(NearestCaches);
 }
 
 } // namespace limn

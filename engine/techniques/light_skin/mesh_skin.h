@@ -26,7 +26,7 @@ struct MeshCache {
 
 /// The caches nearest to a part of a surface. Those whose normals face the surface's side come
 /// first, each kind by distance. A mesh with fewer caches fills the rest with kNone.
-struct CacheList {
+struct NearestCaches {
     static constexpr std::size_t kLength = 16;
     static constexpr std::uint32_t kNone = ~0U;
     std::array<std::uint32_t, kLength> cache{};
@@ -49,14 +49,14 @@ struct SkinSpacing {
 struct MeshSkin {
     CubeRaster raster;
     std::vector<MeshCache> caches;
-    std::vector<CubeLists> cubes;       ///< by cubeKey()
-    std::vector<glm::vec3> cubeBins;    ///< mean normal of each bin of each cube, unit
-    std::vector<CacheList> lists;       ///< in the order of cubeBins
-    std::vector<CacheList> vertexLists; ///< by vertex, where asked for
+    std::vector<CubeLists> cubes;           ///< by cubeKey()
+    std::vector<glm::vec3> cubeBins;        ///< mean normal of each bin of each cube, unit
+    std::vector<NearestCaches> lists;       ///< in the order of cubeBins
+    std::vector<NearestCaches> vertexLists; ///< by vertex, where asked for
 
     /// The list for a surface point of that place and unit normal: that of its cube, or where this
     /// has none, of the nearest. Null where the mesh has no caches.
-    const CacheList* find(glm::vec3 position, glm::vec3 normal) const;
+    const NearestCaches* find(glm::vec3 position, glm::vec3 normal) const;
 
     std::uint64_t bytes() const;
 };

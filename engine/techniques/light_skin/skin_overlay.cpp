@@ -175,7 +175,7 @@ SkinWeights weightsAt(const LightCaches& caches, const Scene& scene, std::uint32
     const std::uint32_t instance = caches.instance[c];
     const MeshCache& cache =
         caches.instances[instance].skin->caches[c - caches.instances[instance].first];
-    std::array<std::uint32_t, CacheList::kLength> list;
+    std::array<std::uint32_t, NearestCaches::kLength> list;
     const std::size_t count = caches.find({.instance = instance,
                                            .triangle = cache.triangle,
                                            .u = cache.u,
@@ -258,7 +258,7 @@ OverlayData SkinSnapshot::overlay(const OverlayRequest& request, const Scene& sc
 std::optional<std::uint32_t> SkinSnapshot::pickAt(const Scene& scene, const Hit& hit) const {
     if (hit.instance >= scene.instances.size())
         return {};
-    std::array<std::uint32_t, CacheList::kLength> list;
+    std::array<std::uint32_t, NearestCaches::kLength> list;
     const std::size_t count =
         m_lit.caches->find({.instance = hit.instance,
                             .triangle = hit.triangle,

@@ -21,13 +21,13 @@ constexpr float kPartPi = std::numbers::pi_v<float>;
 template <class Factor>
 SkinWeights weightsOf(const LightCaches& caches, std::span<const std::uint32_t> list,
                       glm::vec3 position, const Factor& factor) {
-    std::array<float, CacheList::kLength> distance{};
+    std::array<float, NearestCaches::kLength> distance{};
     float farthest = 0;
     for (std::size_t i = 0; i < list.size(); ++i) {
         distance[i] = glm::distance(position, caches.position[list[i]]);
         farthest = std::max(farthest, distance[i]);
     }
-    if (list.size() < CacheList::kLength)
+    if (list.size() < NearestCaches::kLength)
         farthest *= 2;
     SkinWeights weights;
     float sum = 0;
@@ -79,7 +79,7 @@ SkinWeights glossyWeights(const LightCaches& caches, std::span<const std::uint32
 
 /// The caches in the list of a point; returns their number.
 static std::size_t listOf(const LightCaches& caches, const FieldPoint& point,
-                          std::array<std::uint32_t, CacheList::kLength>& list) {
+                          std::array<std::uint32_t, NearestCaches::kLength>& list) {
     if (point.instance >= point.scene.instances.size())
         return 0;
     return caches.find({.instance = point.instance,
@@ -94,7 +94,7 @@ static std::size_t listOf(const LightCaches& caches, const FieldPoint& point,
 
 void SkinPart::irradianceTaps(const FieldPoint& point, FieldTaps& taps) const {
     const LightCaches& caches = *m_light.caches;
-    std::array<std::uint32_t, CacheList::kLength> list;
+    std::array<std::uint32_t, NearestCaches::kLength> list;
     const std::size_t count = listOf(caches, point, list);
     const SkinWeights weights =
         skinWeights(caches, {list.data(), count}, point.position, point.normal);
@@ -122,7 +122,7 @@ void SkinPart::lobeTaps(const FieldPoint& point, glm::vec3 /*direction*/, int /*
     if (!m_light.eye)
         return;
     const LightCaches& caches = *m_light.caches;
-    std::array<std::uint32_t, CacheList::kLength> list;
+    std::array<std::uint32_t, NearestCaches::kLength> list;
     const std::size_t count = listOf(caches, point, list);
     const SkinWeights weights =
         glossyWeights(caches, {list.data(), count}, point.position, point.normal, *m_light.eye);

@@ -22,8 +22,8 @@ inline constexpr float kNearestProxy = 1e-3f;
 /// The caches that light a surface point, with weights whose sum is 1.
 struct SkinWeights {
     std::size_t count = 0;
-    std::array<std::uint32_t, CacheList::kLength> cache{};
-    std::array<float, CacheList::kLength> weight{};
+    std::array<std::uint32_t, NearestCaches::kLength> cache{};
+    std::array<float, NearestCaches::kLength> weight{};
 };
 
 /// (1 - |x - c| / d_max) sqrt((n . n_c)+) for a cache c of the list, d_max being the distance of

@@ -17,20 +17,6 @@ static constexpr float kNearestSample = 1 / 30.f;
 /// Largest flux of a proxy, so that sums stay within float.
 static constexpr double kMaxProxyFlux = 1e34;
 
-SkinInputs skinInputsOf(const Scene& scene, const Viewpoint* view) {
-    SkinInputs now{.surfaces = rsmSurfacesOf(scene),
-                   .settings = skinSettingsOf(scene.technique),
-                   .sources = rsmSourcesOf(scene)};
-    if (view && (!now.settings.all || now.settings.glossy)) {
-        now.view = *view;
-        now.view->camera.name.clear();
-    }
-    if (now.isGlossy())
-        for (const Material& m : scene.materials)
-            now.gloss.push_back({m.roughness, m.metallicRoughnessTexture});
-    return now;
-}
-
 void SkinState::followSurfaces(const Scene& scene, const SkinInputs& now, SkinCost& cost) {
     Stopwatch clock;
     const SkinLayout layout{now.settings.spacing, now.settings.angle, now.settings.vertexLists};
@@ -99,7 +85,7 @@ bool SkinState::gather(const Scene& scene, const SkinInputs& now, const Progress
         if (light.sumsOf == m_gather.version)
             continue;
         light.sumsOf = 0;
-        gatherLights(*m_caches, m_exponents, gatheredFrom(light.lights, light.chosen),
+        gatherLights(*m_caches, m_exponents, gatheringLights(light.lights, light.chosen),
                      eye ? &*eye : nullptr, light.sums, progress);
         if (progress.cancelled())
             return false;

@@ -90,7 +90,7 @@ TEST(SkinCaches, LieOnBothSidesOfTwoSidedSurfaces) {
     const MeshSkin one = skinOf(mesh, {0.3f, 0.5f}, false, false),
                    two = skinOf(mesh, {0.3f, 0.5f}, true, false);
     EXPECT_EQ(two.caches.size(), 2 * one.caches.size());
-    const CacheList* below = two.find({0.5f, 0, 0.5f}, {0, -1, 0});
+    const NearestCaches* below = two.find({0.5f, 0, 0.5f}, {0, -1, 0});
     ASSERT_TRUE(below);
     EXPECT_LT(two.caches[below->cache[0]].normal.y, -0.99f);
 }
@@ -102,11 +102,11 @@ TEST(SkinCaches, AreListedByDistanceThoseThatFaceTheSideFirst) {
     for (const MeshPoint& point : pointsOn(mesh, 500)) {
         const glm::vec3 p = trianglePoint(mesh, point.triangle, point.barycentric),
                         n = triangleNormal(mesh, point.triangle);
-        const CacheList* list = skin.find(p, n);
+        const NearestCaches* list = skin.find(p, n);
         ASSERT_TRUE(list);
         bool turned = false;
         for (const std::uint32_t c : list->cache) {
-            ASSERT_NE(c, CacheList::kNone);
+            ASSERT_NE(c, NearestCaches::kNone);
             const bool faces = glm::dot(skin.caches[c].normal, n) > 0;
             EXPECT_FALSE(faces && turned);
             turned |= !faces;

@@ -113,7 +113,8 @@ GatheringCache cacheAbove() {
 }
 
 double irradiance(const VirtualLights& lights, const ChosenLights& chosen) {
-    return double(luminance(gatherLight(gatheredFrom(lights, chosen), cacheAbove()).diffuse.light));
+    return double(
+        luminance(gatherLight(gatheringLights(lights, chosen), cacheAbove()).diffuse.light));
 }
 
 /// Mean, deviation and rms error of the irradiance over shifts of the points, as shares of that of

@@ -28,7 +28,7 @@ float irradianceOf(const ProxyLight& proxy, const GatheringCache& cache, float f
 }
 
 /// Random lights around a cache, some below its horizon.
-GatheredFrom randomLights(std::mt19937& random, float low) {
+GatheringLights randomLights(std::mt19937& random, float low) {
     std::uniform_real_distribution<float> uniform(-1, 1);
     VirtualLights lights;
     for (std::uint32_t i = 0; i < 37; ++i) {
@@ -41,14 +41,14 @@ GatheredFrom randomLights(std::mt19937& random, float low) {
     ChosenLights chosen = allLights(lights);
     for (float& weight : chosen.weight)
         weight = 1 + 0.5f * uniform(random);
-    return gatheredFrom(lights, chosen);
+    return gatheringLights(lights, chosen);
 }
 
 TEST(SkinProxies, GiveBackWhatTheirCacheReceives) {
     std::mt19937 random(3);
     int tested = 0;
     for (int k = 0; k < 200; ++k) {
-        const GatheredFrom from = randomLights(random, k % 2 == 0 ? 1.f : -0.8f);
+        const GatheringLights from = randomLights(random, k % 2 == 0 ? 1.f : -0.8f);
         GatheringCache cache{.position = {0.1f, 0, 0.2f}, .normal = {0, 1, 0}};
         cache.exponent = float(1 + k % 40);
         cache.mirrored = glm::normalize(glm::vec3(0.3f, 1, 0.2f));
@@ -82,7 +82,7 @@ TEST(SkinProxies, GatherWhatTheFormulasSay) {
                          .exponent = 3.5f};
     ChosenLights chosen = allLights(lights);
     chosen.weight = {1, 2, 3};
-    const CacheSums sums = gatherLight(gatheredFrom(lights, chosen), cache);
+    const CacheSums sums = gatherLight(gatheringLights(lights, chosen), cache);
     double e = 0, g = 0, w = 0, wg = 0;
     glm::dvec3 first(0);
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -141,7 +141,7 @@ struct Plane {
         const std::vector<float> exponents =
             eye ? glossExponents(scene, *caches) : std::vector<float>();
         std::vector<CacheSums> sums;
-        gatherLights(*caches, exponents, gatheredFrom(lights, allLights(lights)),
+        gatherLights(*caches, exponents, gatheringLights(lights, allLights(lights)),
                      eye ? &*eye : nullptr, sums);
         SkinPart::Light light{caches, {}, std::vector<glm::vec3>(2 * caches->size()), eye};
         for (std::size_t c = 0; c < caches->size(); ++c) {
@@ -175,7 +175,7 @@ TEST(SkinProxies, InterpolateBetterThanIrradianceDoesNearALight) {
     };
     for (const Case& k : {Case{0.5f, 0.023f, 1.08f}, Case{1, -0.046f, -0.023f}}) {
         const VirtualLights lights = lightAt({0, k.height, 0});
-        const GatheredFrom from = gatheredFrom(lights, allLights(lights));
+        const GatheringLights from = gatheringLights(lights, allLights(lights));
         glm::vec3 place(0);
         float flux = 0, mean = 0;
         for (const float x : {0.f, 1.f}) {
@@ -199,7 +199,7 @@ TEST(SkinProxies, InterpolateBetterThanIrradianceDoesNearALight) {
 // The error falls with the square of the caches' distance.
 TEST(SkinProxies, LightAPlaneAsTheLightDoes) {
     const VirtualLights lights = lightAt({0.2f, 1, -0.1f});
-    const GatheredFrom from = gatheredFrom(lights, allLights(lights));
+    const GatheringLights from = gatheringLights(lights, allLights(lights));
     std::vector<double> worst;
     for (const float spacing : {0.08f, 0.04f, 0.02f}) {
         const Plane plane(spacing, 1, 2);

@@ -57,7 +57,7 @@ TEST(SkinRooms, LightASphereEvenlyFromAProxyInItsMiddle) {
         LitBySkin lit(sphereRoom(k.map, kAlbedo, kIntensity));
         lit.update();
         const VirtualLights lights = texelsOfSphere(std::uint32_t(k.map), kRadius, kAlbedo);
-        const GatheredFrom from = gatheredFrom(lights, allLights(lights));
+        const GatheringLights from = gatheringLights(lights, allLights(lights));
         const GatheringCache middle{.position = {kRadius, 0, 0}, .normal = {-1, 0, 0}};
         const CacheSums sums = gatherLight(from, middle);
         const float atCache = kIntensity * sums.diffuse.light.x / truth - 1;
@@ -100,7 +100,7 @@ TEST(SkinRooms, ReceiveTheSquaresLightButForTheSizeOfDiscs) {
     const TraceScene trace(scene);
     const Light sun{.kind = LightKind::Directional, .strength = 1};
     const VirtualLights lights = castVirtualLights(trace, scene, sun, kMap);
-    const GatheredFrom from = gatheredFrom(lights, allLights(lights));
+    const GatheringLights from = gatheringLights(lights, allLights(lights));
     struct Case {
         float texels, error;
     };

@@ -19,7 +19,7 @@ namespace {
 
 using namespace shared;
 
-static_assert(CacheList::kNone == SKIN_NO_CACHE && CacheList::kLength == 16);
+static_assert(NearestCaches::kNone == SKIN_NO_CACHE && NearestCaches::kLength == 16);
 static_assert(kNormalBins < 1 << SKIN_LIST_BITS);
 
 constexpr VkDescriptorType kSkinBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
@@ -51,7 +51,7 @@ struct MeshTables {
                              .lists = (firstList + cube.first) << SKIN_LIST_BITS | cube.count});
         for (std::size_t i = 0; i < skin.lists.size(); ++i) {
             GpuSkinList list{.normal = skin.cubeBins[i]};
-            for (std::size_t k = 0; k < CacheList::kLength; ++k)
+            for (std::size_t k = 0; k < NearestCaches::kLength; ++k)
                 list.cache[k / 4][int(k % 4)] = skin.lists[i].cache[k];
             lists.push_back(list);
         }
