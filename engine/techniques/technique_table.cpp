@@ -7,6 +7,7 @@
 #include "engine/techniques/lpv/lpv.h"
 #include "engine/techniques/photon_lattices/photon_lattices.h"
 #include "engine/techniques/probes/probes.h"
+#include "engine/techniques/radiance_volumes/radiance_volumes.h"
 #include "engine/techniques/sparse_probes/sparse_probes.h"
 
 #include <algorithm>
@@ -21,6 +22,9 @@ namespace limn {
 static constexpr std::array kTechniques = {
     &kIlluminanceTechnique,  &kAmbientTechnique, &kLpvTechnique,      &kProbesTechnique,
     &kSparseProbesTechnique, &kPhotonTechnique,  &kLightSkinTechnique};
+&kIlluminanceTechnique, &kAmbientTechnique, &kLpvTechnique, &kProbesTechnique,
+    &kRadianceVolumesTechnique, &kSparseProbesTechnique
+};
 
 std::span<const Technique* const> techniques() {
     return kTechniques;

@@ -68,7 +68,7 @@ tiers_of_rooms='
 Program: app editor_ui
 Vulkan device: device_techniques gpu illuminance_gpu light_skin_gpu lpv_gpu photon_lattices_gpu probes_gpu render rsm_gpu sparse_probes_gpu
 Pictures, measures and exports: export illuminance_measure illuminance_stress measure picture reference
-Techniques of bounced light: ambient illuminance illuminance_bake illuminance_format illuminance_overlay illuminance_relight illuminance_transport light_skin lpv photon_lattices probes sparse_probes techniques
+Techniques of bounced light: ambient illuminance illuminance_bake illuminance_format illuminance_overlay illuminance_relight illuminance_transport light_skin lpv photon_lattices probes radiance_volumes sparse_probes techniques
 Light in a scene: field lattice lighting lightmap lightmap_layout rsm shading trace
 Scenes and ground: core files gallery gltf json math overlay runtime scene stages
 '

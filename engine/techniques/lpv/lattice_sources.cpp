@@ -7,34 +7,12 @@
 #include "engine/techniques/lpv/blockers.h"
 
 #include <algorithm>
-#include <iterator>
 #include <numbers>
 #include <utility>
 
 namespace limn {
 
 namespace {
-
-/// The material with everything reset that does not affect its diffuse reflection.
-Material diffusePart(Material m) {
-    const Material plain;
-    m.name.clear();
-    m.roughness = plain.roughness;
-    m.emission = plain.emission;
-    m.normalScale = plain.normalScale;
-    m.normalTexture = plain.normalTexture;
-    m.emissiveTexture = plain.emissiveTexture;
-    m.emissiveFlipbook = plain.emissiveFlipbook;
-    return m;
-}
-
-LpvSurfaces surfacesOf(const Scene& scene, const LpvSettings& settings) {
-    LpvSurfaces s{scene.assets, {}, {}, scene.bounds, settings.resolution, settings.mapSize};
-    for (const Instance& i : scene.instances)
-        s.instances.push_back({i.mesh, i.material, i.toWorld});
-    std::ranges::transform(scene.materials, std::back_inserter(s.materials), diffusePart);
-    return s;
-}
 
 std::vector<LpvEmission> emissionOf(const Scene& scene, const LpvSettings& settings) {
     std::vector<LpvEmission> emission;
@@ -44,19 +22,14 @@ std::vector<LpvEmission> emissionOf(const Scene& scene, const LpvSettings& setti
     return emission;
 }
 
-std::vector<LpvSource> sourcesOf(const Scene& scene) {
-    std::vector<LpvSource> sources;
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
-        if (const Light& light = scene.lights[i]; shines(light))
-            sources.push_back({i, unitLight(light), light.color * light.strength});
-    return sources;
-}
-
 } // namespace
 
 LpvInputs lpvInputsOf(const Scene& scene) {
     const LpvSettings settings = lpvSettingsOf(scene.technique);
-    return {surfacesOf(scene, settings), settings, emissionOf(scene, settings), sourcesOf(scene)};
+    return {{rsmSurfacesOf(scene), settings.resolution, settings.mapSize},
+            settings,
+            emissionOf(scene, settings),
+            rsmSourcesOf(scene)};
 }
 
 void LatticeSources::followSurfaces(const Scene& scene, const LpvInputs& now, LpvSourceCost& cost) {
@@ -88,7 +61,7 @@ bool LatticeSources::followLights(const Scene& scene, const LpvInputs& now, cons
         return std::ranges::none_of(
             scene.lights, [&](const Light& light) { return unitLight(light) == kept.shape; });
     });
-    for (const LpvSource& source : now.sources) {
+    for (const RsmSource& source : now.sources) {
         if (injectionOf(source.shape))
             continue;
         InjectedLight light =
@@ -108,18 +81,18 @@ const InjectedLight* LatticeSources::injectionOf(const Light& shape) const {
     return it == m_lights.end() ? nullptr : &*it;
 }
 
-CellLight LatticeSources::injected(std::span<const LpvSource> sources,
+CellLight LatticeSources::injected(std::span<const RsmSource> sources,
                                    std::span<const std::uint32_t> black) const {
     CellLight cells(m_lattice.size);
     addInjected(m_emitters, glm::vec3(1), m_lattice, {}, cells);
-    for (const LpvSource& source : sources)
+    for (const RsmSource& source : sources)
         addInjected(injectionOf(source.shape)->parts, source.colour, m_lattice, black, cells);
     return cells;
 }
 
-LitLattice LatticeSources::lit(std::span<const LpvSource> sources, std::uint32_t rounds) const {
+LitLattice LatticeSources::lit(std::span<const RsmSource> sources, std::uint32_t rounds) const {
     LitLattice lit{m_lattice, injected(sources), {}, *m_blockers, {}, 0, rounds};
-    for (const LpvSource& source : sources) {
+    for (const RsmSource& source : sources) {
         const InjectedLight& light = *injectionOf(source.shape);
         for (const ShownTexel& texel : light.texels)
             lit.texels.push_back({texel, texel.reflected * source.colour});

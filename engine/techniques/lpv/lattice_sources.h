@@ -3,6 +3,7 @@
 
 #include "engine/lattice/lattice.h"
 #include "engine/lighting/lighting_report.h"
+#include "engine/rsm/rsm_inputs.h"
 #include "engine/techniques/lpv/injected_lights.h"
 #include "engine/techniques/lpv/lpv_overlay.h"
 #include "engine/techniques/lpv/lpv_settings.h"
@@ -20,15 +21,7 @@ namespace limn {
 
 /// What shadow maps and blockers depend on, besides the lights.
 struct LpvSurfaces {
-    struct Placed {
-        std::uint32_t mesh, material;
-        glm::mat4 toWorld;
-        bool operator==(const Placed&) const = default;
-    };
-    std::shared_ptr<const Assets> assets;
-    std::vector<Placed> instances;
-    std::vector<Material> materials; ///< as far as they affect diffuse reflection
-    Bounds bounds;
+    RsmSurfaces surfaces;
     std::uint32_t resolution, mapSize;
     bool operator==(const LpvSurfaces&) const = default;
 };
@@ -40,20 +33,12 @@ struct LpvEmission {
     bool operator==(const LpvEmission&) const = default;
 };
 
-/// A light that shines.
-struct LpvSource {
-    std::uint32_t index; ///< of Scene::lights
-    Light shape;         ///< unitLight()
-    glm::vec3 colour;    ///< colour times strength
-    bool operator==(const LpvSource&) const = default;
-};
-
 /// Everything that the light of a scene depends on.
 struct LpvInputs {
     LpvSurfaces surfaces;
     LpvSettings settings;
     std::vector<LpvEmission> emission; ///< by material; empty where emitters are not asked for
-    std::vector<LpvSource> sources;
+    std::vector<RsmSource> sources;
     bool operator==(const LpvInputs&) const = default;
 };
 
@@ -85,11 +70,11 @@ public:
     const InjectedLight* injectionOf(const Light& shape) const;
 
     /// Sum of the emitters and of `sources`, without what the instances in `black` reflect.
-    CellLight injected(std::span<const LpvSource> sources,
+    CellLight injected(std::span<const RsmSource> sources,
                        std::span<const std::uint32_t> black = {}) const;
 
     /// What overlays show, with an empty LitLattice::sum.
-    LitLattice lit(std::span<const LpvSource> sources, std::uint32_t rounds) const;
+    LitLattice lit(std::span<const RsmSource> sources, std::uint32_t rounds) const;
 
     const Lattice& lattice() const { return m_lattice; }
     /// Call after followSurfaces().

@@ -72,7 +72,7 @@ public:
             addRow(e.byOrigin, {.kind = LightRowKind::Others,
                                 .label = "Emissive surfaces",
                                 .value = valueAlone(together)});
-        for (const LpvSource& source : m_inputs->sources) {
+        for (const RsmSource& source : m_inputs->sources) {
             CellLight cells(lattice.size);
             for (CellLight* sum : {&cells, &together})
                 addInjected(m_sources.injectionOf(source.shape)->parts, source.colour, lattice,

@@ -71,7 +71,7 @@ bool DeviceLpv::castMaps(const Scene& scene, const LpvInputs& now, const Progres
         return std::ranges::none_of(
             scene.lights, [&](const Light& light) { return unitLight(light) == kept.shape; });
     });
-    for (const LpvSource& source : now.sources) {
+    for (const RsmSource& source : now.sources) {
         if (lobesOf(source.shape))
             continue;
         if (progress.cancelled())
@@ -95,7 +95,7 @@ bool DeviceLpv::relight(const Scene& scene, const LpvInputs& now, const Progress
     if (!castMaps(scene, now, progress, cost))
         return false;
     std::vector<GpuSource> sources = {{&m_emitters, glm::vec3(1)}};
-    for (const LpvSource& source : now.sources)
+    for (const RsmSource& source : now.sources)
         sources.push_back({lobesOf(source.shape), source.colour});
     const bool dark = now.sources.empty() && m_sources->emitters().empty();
     cost.rounds = dark ? 0 : now.settings.rounds;

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/radiance_volumes/allocation.h"
+
+#include "engine/core/parallel.h"
+#include "engine/math/sampling.h"
+#include "engine/shading/pixel_rays.h"
+#include "engine/techniques/radiance_volumes/touched_cells.h"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace limn {
+
+namespace {
+
+constexpr std::size_t kShownPoints = 4096, kShownDropped = 4096;
+/// Of a view without a picture.
+constexpr float kUsualWidth = 640;
+
+/// What the rays through the middles of a picture's pixels meet, row by row.
+struct ViewHits {
+    glm::uvec2 size{0};
+    std::vector<Hit> hits; ///< no instance: the sky
+};
+
+ViewHits traceView(const TraceScene& trace, const Viewpoint& view, const Progress& progress) {
+    ViewHits seen{.size = view.size};
+    if (seen.size.x == 0 || seen.size.y == 0)
+        seen.size = glm::uvec2(kUsualWidth, std::max(kUsualWidth / view.aspect, 1.f));
+    const PixelRays rays(view.camera, seen.size.x, seen.size.y);
+    seen.hits.resize(std::size_t(seen.size.x) * seen.size.y);
+    parallelRanges(seen.size.y, 1, progress, "view", [&](std::size_t begin, std::size_t end) {
+        for (std::size_t y = begin; y < end; ++y)
+            for (std::size_t x = 0; x < seen.size.x; ++x)
+                seen.hits[y * seen.size.x + x] =
+                    trace.closestHit(rays.through(glm::vec2(float(x), float(y)) + 0.5f));
+    });
+    return seen;
+}
+
+glm::vec3 normalTowardsEye(const Hit& hit) {
+    return hit.geometricNormal * (hit.frontFace ? 1.f : -1.f);
+}
+
+/// Wants the nodes about each hit in each grid that lights it. Of hits of a row in the same cell,
+/// one after the other, the first alone counts in the places of caches.
+NodeDemand demandOf(const ViewHits& seen, const CacheGrids& grids) {
+    NodeDemand demand(grids);
+    parallelRanges(seen.size.y, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t y = begin; y < end; ++y) {
+            std::vector<glm::uvec3> before(grids.grids.size(), glm::uvec3(~0U));
+            for (std::size_t x = 0; x < seen.size.x; ++x) {
+                const Hit& hit = seen.hits[y * seen.size.x + x];
+                if (!hit)
+                    continue;
+                const GridShares shares = gridShares(grids, hit.position);
+                for (std::size_t k = 0; k < shares.count; ++k) {
+                    const std::uint32_t g = shares.share[k].grid;
+                    const glm::uvec3 cell = grids.grids[g].cellAt(hit.position);
+                    if (std::exchange(before[g], cell) != cell)
+                        demand.want(g, cell, hit.position, normalTowardsEye(hit));
+                }
+            }
+        }
+    });
+    return demand;
+}
+
+std::size_t countMissed(const CacheAllocation& made, std::span<const Hit> points) {
+    std::atomic<std::size_t> missed = 0;
+    parallelRanges(points.size(), 256, [&](std::size_t begin, std::size_t end) {
+        std::size_t count = 0;
+        for (std::size_t i = begin; i < end; ++i)
+            count += lookUpCaches(made.grids, made.address, points[i].position).count == 0 ? 1 : 0;
+        missed += count;
+    });
+    return missed;
+}
+
+/// One hit of each stretch at random: even steps would show in rows.
+std::vector<SeenPoint> someOf(std::span<const Hit> hits, const CacheGrids& grids) {
+    std::vector<SeenPoint> points;
+    const std::size_t count = std::min(hits.size(), kShownPoints);
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t begin = k * hits.size() / count, end = (k + 1) * hits.size() / count;
+        const Hit& hit = hits[begin + mixBits(std::uint32_t(k)) % (end - begin)];
+        points.push_back(
+            {hit.position, normalTowardsEye(hit), gridShares(grids, hit.position).share[0].grid});
+    }
+    return points;
+}
+
+/// Middles of triangles of the scene, evenly spread over their numbers.
+std::vector<SeenPoint> someOf(const Scene& scene) {
+    std::size_t triangles = 0;
+    for (const Instance& instance : scene.instances)
+        triangles += scene.meshOf(instance).triangleCount();
+    const std::size_t step = triangles / kShownPoints + 1;
+    std::vector<SeenPoint> points;
+    std::size_t number = 0;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshOf(instance);
+        for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+            if (number++ % step != 0)
+                continue;
+            const auto k = mesh.triangle(t);
+            const glm::vec3 a = mesh.positions[k[0]], b = mesh.positions[k[1]],
+                            c = mesh.positions[k[2]];
+            const glm::vec3 n = instance.normalToWorld * glm::cross(b - a, c - a);
+            if (glm::length(n) > 0)
+                points.push_back({glm::vec3(instance.toWorld * glm::vec4((a + b + c) / 3.f, 1)),
+                                  glm::normalize(n), 0});
+        }
+    }
+    return points;
+}
+
+/// Wants the nodes of the cells of gridOver() that surfaces touch.
+NodeDemand demandOf(const Scene& scene, const CacheGrids& grids) {
+    const CacheGrid& grid = grids.grids[0];
+    const Lattice cells{grid.lower, grid.cell, grid.nodes - 1U};
+    NodeDemand demand(grids);
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshOf(instance);
+        parallelRanges(mesh.triangleCount(), 64, [&](std::size_t begin, std::size_t end) {
+            for (auto t = std::uint32_t(begin); t < end; ++t) {
+                const auto corners = cornersOf(scene, instance, t);
+                const auto k = mesh.triangle(t);
+                const glm::vec3 p = mesh.positions[k[0]];
+                const glm::vec3 across =
+                    instance.normalToWorld *
+                    glm::cross(mesh.positions[k[1]] - p, mesh.positions[k[2]] - p);
+                const float length = glm::length(across);
+                if (length > 0)
+                    visitTouchedCells(cells, corners, [&](glm::uvec3 cell) {
+                        demand.want(0, cell, corners[0], across / length);
+                    });
+            }
+        });
+    }
+    return demand;
+}
+
+} // namespace
+
+std::size_t CacheAllocation::bytes() const {
+    return address.size() * sizeof(std::uint32_t) + places.size() * sizeof(CachePlace);
+}
+
+CacheAllocation numberCaches(const CacheGrids& grids, const NodeDemand& demand,
+                             std::size_t caches) {
+    CacheAllocation made{.grids = grids};
+    made.address.assign(grids.nodes(), kNoCache);
+    made.ofGrid.assign(grids.grids.size(), 0);
+    for (std::size_t g = grids.grids.size(); g-- > 0;) {
+        const CacheGrid& grid = grids.grids[g];
+        const std::size_t first = grids.firstNode(g);
+        for (std::size_t node = 0; node < grid.count(); ++node) {
+            if (!demand.wanted(g, node))
+                continue;
+            if (made.caches() < caches) {
+                made.address[first + node] = std::uint32_t(made.caches());
+                made.places.push_back(demand.place(g, node));
+                ++made.ofGrid[g];
+            } else if (made.droppedCount++ < kShownDropped) {
+                made.dropped.push_back(grid.place(grid.node(node)));
+            }
+        }
+    }
+    return made;
+}
+
+CacheAllocation allocateForView(const TraceScene& trace, const Scene& scene, const Viewpoint& view,
+                                const VolumeSettings& settings, const Progress& progress) {
+    const CacheGrids grids = cascadesAbout(view.camera.eye, scene.bounds, settings.cascades,
+                                           settings.nodes, settings.transition);
+    if (grids.grids.empty())
+        return {};
+    ViewHits seen = traceView(trace, view, progress);
+    CacheAllocation made = numberCaches(grids, demandOf(seen, grids), settings.caches);
+    made.rays = seen.hits.size();
+    std::erase_if(seen.hits, [](const Hit& hit) { return !hit; });
+    made.pixels = seen.hits.size();
+    made.missed = countMissed(made, seen.hits);
+    made.shown = someOf(seen.hits, made.grids);
+    return made;
+}
+
+CacheAllocation allocateForScene(const Scene& scene, const VolumeSettings& settings) {
+    constexpr std::uint32_t kMostCells = 255; // along a side
+    std::uint32_t fits = 1, tooFine = kMostCells + 1;
+    if (gridOver(scene.bounds, fits).grids.empty())
+        return {};
+    while (tooFine - fits > 1) {
+        const std::uint32_t cells = (fits + tooFine) / 2;
+        const CacheGrids grids = gridOver(scene.bounds, cells);
+        (demandOf(scene, grids).count() > settings.caches ? tooFine : fits) = cells;
+    }
+    const CacheGrids grids = gridOver(scene.bounds, fits);
+    CacheAllocation made = numberCaches(grids, demandOf(scene, grids), settings.caches);
+    made.shown = someOf(scene);
+    return made;
+}
+
+} // namespace limn

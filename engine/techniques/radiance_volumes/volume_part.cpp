@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/radiance_volumes/volume_part.h"
+
+#include "engine/field/sample_field.h"
+#include "engine/math/hemisphere_radiance.h"
+#include "engine/math/sh.h"
+#include "engine/scene/surface/specular.h"
+
+#include <algorithm>
+
+namespace limn {
+
+std::size_t VolumePart::bytes() const {
+    return caches->bytes() + (light.harmonics.size() + light.glossy.size()) * sizeof(glm::vec3);
+}
+
+void VolumePart::addHarmonics(glm::vec3 p, std::span<const float> weights, FieldTaps& taps) const {
+    const CacheLookup found = lookUpCaches(caches->grids, caches->address, p);
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        for (std::size_t k = 0; k < found.count; ++k)
+            taps.push_back(
+                {std::uint32_t(found.cache[k] * coefficients() + i), weights[i] * found.weight[k]});
+}
+
+void VolumePart::irradianceTaps(const FieldPoint& point, FieldTaps& taps) const {
+    float weights[kIrradianceBands * kIrradianceBands];
+    shBasis(int(bands), point.normal, weights);
+    const auto factors = irradianceFactors();
+    for (int l = 0, i = 0; l < int(bands); ++l)
+        for (; i < (l + 1) * (l + 1); ++i)
+            weights[i] *= factors[std::size_t(l)];
+    addHarmonics(point.position, {weights, coefficients()}, taps);
+}
+
+void VolumePart::radianceTaps(const FieldPoint& point, glm::vec3 direction, FieldTaps& taps) const {
+    float weights[kIrradianceBands * kIrradianceBands];
+    hemisphereRadianceWeights(int(bands), point.normal, direction, weights);
+    addHarmonics(point.position, {weights, coefficients()}, taps);
+}
+
+void VolumePart::lobeTaps(const FieldPoint& point, glm::vec3 direction, int lobeBands,
+                          const std::array<float, kMaxBands>& factors, FieldTaps& taps) const {
+    if (glossy) {
+        const Instance& instance = point.scene.instances[point.instance];
+        const float roughness =
+            surfaceGloss(point.scene, instance, point.triangle, point.u, point.v).roughness;
+        const GlossyLookup texels =
+            lookUpGlossy(*glossy, glossyFrame(eye - point.position), point.normal, roughness);
+        const CacheLookup found = lookUpCaches(caches->grids, caches->address, point.position);
+        for (std::size_t k = 0; k < found.count; ++k)
+            for (std::size_t t = 0; t < texels.count; ++t)
+                taps.push_back({std::uint32_t(firstTexel() + found.cache[k] * glossy->texels() +
+                                              texels.texel[t]),
+                                found.weight[k] * texels.weight[t]});
+        return;
+    }
+    const int used = std::min(lobeBands, int(bands));
+    float weights[kIrradianceBands * kIrradianceBands];
+    shBasis(used, direction, weights);
+    for (int l = 0, i = 0; l < used; ++l)
+        for (; i < (l + 1) * (l + 1); ++i)
+            weights[i] *= factors[std::size_t(l)];
+    addHarmonics(point.position, {weights, std::size_t(used * used)}, taps);
+}
+
+glm::vec3 VolumePart::sum(std::span<const FieldTap> taps) const {
+    glm::vec3 sum(0);
+    for (const FieldTap& tap : taps)
+        sum += tap.weight * (tap.index < firstTexel() ? light.harmonics[tap.index]
+                                                      : light.glossy[tap.index - firstTexel()]);
+    return sum;
+}
+
+bool VolumePart::equals(const FieldPart& other) const {
+    const auto* o = dynamic_cast<const VolumePart*>(&other);
+    return o && o->bands == bands && o->caches->grids == caches->grids &&
+           o->caches->address == caches->address && o->light.harmonics == light.harmonics &&
+           o->light.glossy == light.glossy && o->eye == eye;
+}
+
+} // namespace limn

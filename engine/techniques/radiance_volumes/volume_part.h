@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/field/field_part.h"
+#include "engine/techniques/radiance_volumes/allocation.h"
+#include "engine/techniques/radiance_volumes/cache_light.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace limn {
+
+/// Lit caches as a part of a field. Its numbers are the caches' harmonics, then the texels of their
+/// maps for reflections.
+class VolumePart : public FieldPart {
+public:
+    /// The caches' places; shared by parts, because light changes more often.
+    std::shared_ptr<const CacheAllocation> caches;
+    std::uint32_t bands = 2; ///< 2 or 3
+    CacheLight light;
+    std::optional<GlossyMapShape> glossy;
+    glm::vec3 eye{0}; ///< of those maps
+
+    std::size_t coefficients() const { return std::size_t(bands) * bands; }
+    /// Number of the first texel of the maps.
+    std::size_t firstTexel() const { return light.harmonics.size(); }
+    std::size_t bytes() const;
+
+    const char* name() const override { return "radiance volumes"; }
+    void irradianceTaps(const FieldPoint& point, FieldTaps& taps) const override;
+    void radianceTaps(const FieldPoint& point, glm::vec3 direction, FieldTaps& taps) const override;
+    void lobeTaps(const FieldPoint& point, glm::vec3 direction, int lobeBands,
+                  const std::array<float, kMaxBands>& factors, FieldTaps& taps) const override;
+    glm::vec3 sum(std::span<const FieldTap> taps) const override;
+    bool equals(const FieldPart& other) const override;
+
+private:
+    void addHarmonics(glm::vec3 p, std::span<const float> weights, FieldTaps& taps) const;
+};
+
+} // namespace limn

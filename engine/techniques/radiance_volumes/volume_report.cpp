@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/radiance_volumes/volume_report.h"
+
+#include <array>
+
+namespace limn {
+
+namespace {
+
+struct GridText {
+    const char *id, *label, *tooltip;
+};
+constexpr std::array<GridText, 4> kGrids = {
+    {{"caches_0", "Caches, finest cascade", "Caches in the smallest grid"},
+     {"caches_1", "Caches, second cascade", "Caches in the second smallest grid"},
+     {"caches_2", "Caches, third cascade", "Caches in the third smallest grid"},
+     {"caches_3", "Caches, fourth cascade", "Caches in the largest of four grids"}}};
+
+} // namespace
+
+void describeVolume(const LitVolume& lit, const VolumeCost& cost, LightingReport& report) {
+    report.steps = {
+        {"shadow_maps", "Reflective shadow maps",
+         "Maps of lights that are out of date, and the area lights that are read of them",
+         cost.mapMs},
+        {"voxels", "Voxels", "Voxels that surfaces touch, and their averages", cost.voxelMs},
+        {"allocation", "Allocation", "Caches are placed around what the view shows",
+         cost.allocationMs},
+        {"caches", "Cache light", "Caches gather the light of all area lights", cost.lightMs}};
+    const CacheAllocation none;
+    const CacheAllocation& caches = lit.part ? *lit.part->caches : none;
+    std::size_t areaLights = 0, bytes = lit.part ? lit.part->bytes() : 0;
+    for (const auto& lights : lit.lights) {
+        areaLights += lights->count();
+        bytes += lights->bytes();
+    }
+    if (lit.voxels)
+        bytes += lit.voxels->bytes();
+    report.counters = {
+        {"caches", "Caches", "Caches in all grids", double(caches.caches())},
+        {"caches_dropped", "Caches dropped", "Caches that the view needs beyond their number",
+         double(caches.droppedCount)},
+        {"pixels_missed", "Pixels missed", "Pixels of the view that find no cache",
+         double(caches.missed)},
+        {"area_lights", "Virtual area lights", "Of all lights", double(areaLights)},
+        {"lights_traced", "Lights traced",
+         "Lights whose shadow map was cast: they or an object moved", double(cost.traced)},
+        {"shadow_rays", "Shadow map rays", "Rays cast for shadow maps", double(cost.mapRays)},
+        {"view_rays", "View rays", "Rays through pixels that placed caches", double(cost.viewRays)},
+        {"cones", "Cones", "Shadow cones that were followed", double(cost.cones)},
+        {"voxels", "Voxels", "Voxels that surfaces touch",
+         double(lit.voxels ? lit.voxels->solid.count() : 0)},
+        {"bytes", "Memory", "Caches, their addresses, area lights, voxels and maps", double(bytes),
+         CounterUnit::Bytes}};
+    for (std::size_t g = 0; g < caches.ofGrid.size(); ++g)
+        report.counters.push_back(
+            {kGrids[g].id, kGrids[g].label, kGrids[g].tooltip, double(caches.ofGrid[g])});
+}
+
+} // namespace limn

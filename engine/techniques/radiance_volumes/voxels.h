@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/lattice/lattice.h"
+#include "engine/scene/scene.h"
+#include "engine/techniques/radiance_volumes/touched_cells.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace limn {
+
+/// Opacities of the cells of one level, in 255ths, x fastest.
+using VoxelLevel = std::vector<std::uint8_t>;
+
+/// The solid voxels of a scene in a cube over it, and their averages. Level k has 2^k times as
+/// large cells; level 0 is made of bits.
+struct VoxelVolume {
+    Lattice lattice; ///< of level 0: a cube with a power of two along each side
+    CellBits solid{0};
+    /// mean[k - 1]: level k, the mean of eight cells each. Crassin et al. Interactive Indirect
+    /// Illumination Using Voxel Cone Tracing. 2011
+    std::vector<VoxelLevel> mean;
+    /// along[a][k - 1]: what light along axis a meets in a cell: two cells one behind the other
+    /// let through the product of what each lets through, and four such pairs are averaged.
+    std::array<std::vector<VoxelLevel>, 3> along;
+
+    /// Per cell, the number of cells between it and the nearest solid one, along the axis along
+    /// which they lie further apart, plus 1; 0 in a solid one, 255 where that is as far or further.
+    VoxelLevel distance;
+
+    std::uint32_t side() const { return lattice.size.x; }
+    std::uint32_t levels() const { return std::uint32_t(mean.size()) + 1; }
+    std::size_t bytes() const;
+};
+
+/// The cube: one voxel wider on each side than the longest side of `bounds`, so that walls there
+/// lie between two voxels. `side`: a power of two >= 16. A scene without extent has cells of 1 m.
+Lattice voxelLattice(const Bounds& bounds, std::uint32_t side);
+
+VoxelVolume voxelsOf(const Scene& scene, std::uint32_t side);
+
+/// Fills all else from `solid`.
+void averageVoxels(VoxelVolume& volume);
+
+/// Whether all cells of level 0 within `reach` cells of `p` along each axis are empty. May return
+/// false where they are.
+bool isEmptyAbout(const VoxelVolume& volume, glm::vec3 p, float reach);
+
+/// Trilinear opacity at a point of a level, in [0, 1]. `p`: in cells of level 0, from the lower
+/// corner; outside the cube nothing is opaque. `chain`: `mean`, or one of `along`.
+float opacityAt(const VoxelVolume& volume, std::span<const VoxelLevel> chain, std::uint32_t level,
+                glm::vec3 p);
+
+} // namespace limn
