@@ -19,12 +19,11 @@ namespace {
 constexpr std::size_t kLanes = 8; // caches that are lit together
 constexpr float kInvPi = std::numbers::inv_pi_v<float>;
 
-/// The sine of half the angle of the widest cone; wider ones would hardly tell where light comes
-/// from.
-constexpr float kWidestSine = 0.5f;
-/// Voxels by which both ends of a cone are raised above their surfaces. Less would have light along
-/// these dimmed by their own voxels: in Cornell, bounced light is 25 % too dark with 2, 45 % with
-/// 0.
+/// The sine of half the angle of the widest cone. Wider ones meet the walls beside the way of the
+/// light.
+constexpr float kWidestSine = 0.25f;
+/// Voxels by which both ends of a cone are raised above their surfaces, whose own voxels would
+/// otherwise dim light that runs along them.
 constexpr float kRaised = 2;
 
 using Lanes = float[kLanes];
@@ -82,7 +81,7 @@ inline void arrive(const CacheLanes& caches, const AreaLights& lights, std::size
     for (std::size_t k = 0; k < kLanes; ++k)
         length[k] = std::sqrt(squared[k]);
     for (std::size_t k = 0; k < kLanes; ++k) {
-        const float inverse = 1 / std::max(length[k], std::numeric_limits<float>::min());
+        const float inverse = length[k] > 0 ? 1 / length[k] : 0.f;
         a.dx[k] *= inverse;
         a.dy[k] *= inverse;
         a.dz[k] *= inverse;

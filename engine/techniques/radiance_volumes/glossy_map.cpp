@@ -26,20 +26,32 @@ bool isDark(glm::vec3 light) {
     return light == glm::vec3(0);
 }
 
-/// How filling changes four texels below one.
-struct FilledChildren {
-    std::array<bool, 4> filled{}; ///< takes the value of the coarse texel, times `scale`
-    float scale = 1;              ///< of all four
+/// How filling makes a texel: of its own light, or of that of the coarser texel above it.
+struct FilledTexel {
+    bool filled = false;
+    float scale = 1; ///< of that light
 };
-FilledChildren filledChildren(std::span<const glm::vec3> fine,
-                              const std::array<std::size_t, 4>& k) {
-    FilledChildren found;
-    int count = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-        count += (found.filled[i] = isDark(fine[k[i]])) ? 1 : 0;
-    // Each filled texel adds as much as the mean of the four is.
-    found.scale = count < 4 ? 4 / float(4 + count) : 1;
-    return found;
+
+/// How all texels of the filled levels are made, by their numbers; `before`: all levels before
+/// filling. Each filled texel takes as much as the mean of its four is, so that all four must
+/// shrink for that to stay; and they shrink once more where the coarser texel did.
+std::vector<FilledTexel> fillPlan(const GlossyMapShape& shape, std::span<const glm::vec3> before) {
+    std::vector<FilledTexel> plan(before.size());
+    for (std::uint32_t level = std::min(shape.fill, shape.levels() - 1); level-- > 0;) {
+        const std::size_t side = shape.tile >> (level + 1);
+        const std::size_t fine = shape.firstTexel(level), coarse = shape.firstTexel(level + 1);
+        for (std::size_t t = 0; t < side * side; ++t) {
+            const auto k = childrenOf(t, side);
+            const auto dark =
+                std::ranges::count_if(k, [&](std::size_t c) { return isDark(before[fine + c]); });
+            const float scale = dark < 4 ? 4 / float(4 + dark) : 1;
+            for (const std::size_t c : k) {
+                const bool filled = isDark(before[fine + c]);
+                plan[fine + c] = {filled, filled ? scale : scale * plan[coarse + t].scale};
+            }
+        }
+    }
+    return plan;
 }
 
 /// The levels before filling.
@@ -121,17 +133,17 @@ GlossySplat glossySplat(const GlossyMapShape& shape, const glm::mat3& frame, glm
 
 void completeGlossyMap(const GlossyMapShape& shape, std::span<glm::vec3> texels) {
     averageLevels(shape, texels);
+    if (shape.fill == 0)
+        return;
+    const std::vector<FilledTexel> plan = fillPlan(shape, texels);
     for (std::uint32_t level = std::min(shape.fill, shape.levels() - 1); level-- > 0;) {
         const std::size_t side = shape.tile >> (level + 1);
-        const std::span<const glm::vec3> coarse =
-            texels.subspan(shape.firstTexel(level + 1), side * side);
-        const std::span<glm::vec3> fine = texels.subspan(shape.firstTexel(level), 4 * side * side);
-        for (std::size_t t = 0; t < coarse.size(); ++t) {
-            const auto k = childrenOf(t, side);
-            const FilledChildren f = filledChildren(fine, k);
-            for (std::size_t i = 0; i < 4; ++i)
-                fine[k[i]] = (f.filled[i] ? coarse[t] : fine[k[i]]) * f.scale;
-        }
+        const std::size_t first = shape.firstTexel(level), coarse = shape.firstTexel(level + 1);
+        for (std::size_t t = 0; t < side * side; ++t)
+            for (const std::size_t c : childrenOf(t, side)) {
+                const FilledTexel& made = plan[first + c];
+                texels[first + c] = texels[made.filled ? coarse + t : first + c] * made.scale;
+            }
     }
 }
 
@@ -140,24 +152,19 @@ std::vector<glm::vec3> glossyAdjoint(const GlossyMapShape& shape, std::span<cons
     std::vector<glm::vec3> before(shape.texels(), glm::vec3(0));
     std::ranges::copy(finest.first(std::size_t(shape.tile) * shape.tile), before.begin());
     averageLevels(shape, before);
+    const std::vector<FilledTexel> plan = fillPlan(shape, before);
     std::vector<glm::vec3> w(weight.begin(), weight.end());
     const std::span<glm::vec3> all(w);
     // Filling goes from coarse to fine, so its adjoint goes from fine to coarse.
     for (std::uint32_t level = 0; level < std::min(shape.fill, shape.levels() - 1); ++level) {
         const std::size_t side = shape.tile >> (level + 1);
-        const std::span<glm::vec3> coarse = all.subspan(shape.firstTexel(level + 1), side * side);
-        const std::span<glm::vec3> fine = all.subspan(shape.firstTexel(level), 4 * side * side);
-        const std::span<const glm::vec3> values =
-            std::span<const glm::vec3>(before).subspan(shape.firstTexel(level), 4 * side * side);
-        for (std::size_t t = 0; t < coarse.size(); ++t) {
-            const auto k = childrenOf(t, side);
-            const FilledChildren f = filledChildren(values, k);
-            for (std::size_t i = 0; i < 4; ++i) {
-                fine[k[i]] *= f.scale;
-                if (f.filled[i])
-                    coarse[t] += std::exchange(fine[k[i]], glm::vec3(0));
+        const std::size_t first = shape.firstTexel(level), coarse = shape.firstTexel(level + 1);
+        for (std::size_t t = 0; t < side * side; ++t)
+            for (const std::size_t c : childrenOf(t, side)) {
+                const FilledTexel& made = plan[first + c];
+                const glm::vec3 moved = std::exchange(w[first + c], glm::vec3(0)) * made.scale;
+                w[made.filled ? coarse + t : first + c] += moved;
             }
-        }
     }
     for (std::uint32_t level = shape.levels() - 1; level > 0; --level) {
         const std::size_t side = shape.tile >> level;
