@@ -17,6 +17,7 @@ namespace limn {
 namespace {
 
 constexpr std::size_t kShownPoints = 4096, kShownDropped = 4096;
+constexpr std::uint32_t kMaxCells = 255; // along a side of a grid over the scene
 /// Of a view without a picture.
 constexpr float kUsualWidth = 640;
 
@@ -45,10 +46,10 @@ glm::vec3 normalTowardsEye(const Hit& hit) {
     return hit.geometricNormal * (hit.frontFace ? 1.f : -1.f);
 }
 
-/// Wants the nodes about each hit in each grid that lights it. Of hits of a row in the same cell,
-/// one after the other, the first alone counts in the places of caches.
-NodeDemand demandOf(const ViewHits& seen, const CacheGrids& grids) {
-    NodeDemand demand(grids);
+/// Calls visit(grid, cell, hit) for the cells of each hit in each grid that lights it; of hits of a
+/// row in the same cell, one after the other, for the first alone.
+template <class Visit>
+void visitCells(const ViewHits& seen, const CacheGrids& grids, const Visit& visit) {
     parallelRanges(seen.size.y, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t y = begin; y < end; ++y) {
             std::vector<glm::uvec3> before(grids.grids.size(), glm::uvec3(~0U));
@@ -61,12 +62,63 @@ NodeDemand demandOf(const ViewHits& seen, const CacheGrids& grids) {
                     const std::uint32_t g = shares.share[k].grid;
                     const glm::uvec3 cell = grids.grids[g].cellAt(hit.position);
                     if (std::exchange(before[g], cell) != cell)
-                        demand.want(g, cell, hit.position, normalTowardsEye(hit));
+                        visit(g, cell, hit);
                 }
             }
         }
     });
-    return demand;
+}
+
+/// Calls visit(cell, p, normal) for each cell of gridOver() that a triangle touches, with a point
+/// of the triangle.
+template <class Visit>
+void visitCells(const Scene& scene, const CacheGrid& grid, const Visit& visit) {
+    const Lattice cells{grid.lower, grid.cell, grid.nodes - 1U};
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshOf(instance);
+        parallelRanges(mesh.triangleCount(), 64, [&](std::size_t begin, std::size_t end) {
+            for (auto t = std::uint32_t(begin); t < end; ++t) {
+                const auto corners = cornersOf(scene, instance, t);
+                const auto k = mesh.triangle(t);
+                const glm::vec3 p = mesh.positions[k[0]];
+                const glm::vec3 across =
+                    instance.normalToWorld *
+                    glm::cross(mesh.positions[k[1]] - p, mesh.positions[k[2]] - p);
+                const float length = glm::length(across);
+                if (length > 0)
+                    visitTouchedCells(cells, corners, [&](glm::uvec3 cell) {
+                        visit(cell, corners[0], across / length);
+                    });
+            }
+        });
+    }
+}
+
+/// Counts a surface in the places of the caches at the nodes of a cell.
+void addSurface(const CacheAllocation& made, std::size_t grid, glm::uvec3 cell, glm::vec3 p,
+                glm::vec3 normal, CachePlaceSums& sums) {
+    const CacheGrid& g = made.grids.grids[grid];
+    for (std::uint32_t corner = 0; corner < 8; ++corner) {
+        const glm::uvec3 node = cellCorner(cell, corner);
+        const std::uint32_t cache = made.address[made.grids.firstNode(grid) + g.index(node)];
+        if (cache != kNoCache)
+            sums.add(cache, g.place(node), g.cell, p, normal);
+    }
+}
+
+void setPlaces(CacheAllocation& made, const CachePlaceSums& sums) {
+    std::size_t cache = 0;
+    for (std::size_t g = made.ofGrid.size(); g-- > 0;)
+        for (std::size_t k = 0; k < made.ofGrid[g]; ++k, ++cache)
+            made.places[cache] =
+                sums.place(cache, made.places[cache].position, made.grids.grids[g].cell);
+}
+
+WantedNodes nodesOfSurfaces(const Scene& scene, const CacheGrids& grids) {
+    WantedNodes wanted(grids.nodes(), 0);
+    visitCells(scene, grids.grids[0],
+               [&](glm::uvec3 cell, glm::vec3, glm::vec3) { wantNodes(grids, 0, cell, wanted); });
+    return wanted;
 }
 
 std::size_t countMissed(const CacheAllocation& made, std::span<const Hit> points) {
@@ -118,39 +170,20 @@ std::vector<SeenPoint> someOf(const Scene& scene) {
     return points;
 }
 
-/// Wants the nodes of the cells of gridOver() that surfaces touch.
-NodeDemand demandOf(const Scene& scene, const CacheGrids& grids) {
-    const CacheGrid& grid = grids.grids[0];
-    const Lattice cells{grid.lower, grid.cell, grid.nodes - 1U};
-    NodeDemand demand(grids);
-    for (const Instance& instance : scene.instances) {
-        const Mesh& mesh = scene.meshOf(instance);
-        parallelRanges(mesh.triangleCount(), 64, [&](std::size_t begin, std::size_t end) {
-            for (auto t = std::uint32_t(begin); t < end; ++t) {
-                const auto corners = cornersOf(scene, instance, t);
-                const auto k = mesh.triangle(t);
-                const glm::vec3 p = mesh.positions[k[0]];
-                const glm::vec3 across =
-                    instance.normalToWorld *
-                    glm::cross(mesh.positions[k[1]] - p, mesh.positions[k[2]] - p);
-                const float length = glm::length(across);
-                if (length > 0)
-                    visitTouchedCells(cells, corners, [&](glm::uvec3 cell) {
-                        demand.want(0, cell, corners[0], across / length);
-                    });
-            }
-        });
-    }
-    return demand;
-}
-
 } // namespace
 
 std::size_t CacheAllocation::bytes() const {
     return address.size() * sizeof(std::uint32_t) + places.size() * sizeof(CachePlace);
 }
 
-CacheAllocation numberCaches(const CacheGrids& grids, const NodeDemand& demand,
+void wantNodes(const CacheGrids& grids, std::size_t grid, glm::uvec3 cell, WantedNodes& wanted) {
+    for (std::uint32_t corner = 0; corner < 8; ++corner)
+        std::atomic_ref(
+            wanted[grids.firstNode(grid) + grids.grids[grid].index(cellCorner(cell, corner))])
+            .store(1, std::memory_order_relaxed);
+}
+
+CacheAllocation numberCaches(const CacheGrids& grids, const WantedNodes& wanted,
                              std::size_t caches) {
     CacheAllocation made{.grids = grids};
     made.address.assign(grids.nodes(), kNoCache);
@@ -159,14 +192,15 @@ CacheAllocation numberCaches(const CacheGrids& grids, const NodeDemand& demand,
         const CacheGrid& grid = grids.grids[g];
         const std::size_t first = grids.firstNode(g);
         for (std::size_t node = 0; node < grid.count(); ++node) {
-            if (!demand.wanted(g, node))
+            if (wanted[first + node] == 0)
                 continue;
+            const glm::vec3 position = grid.place(grid.node(node));
             if (made.caches() < caches) {
                 made.address[first + node] = std::uint32_t(made.caches());
-                made.places.push_back(demand.place(g, node));
+                made.places.push_back({.position = position});
                 ++made.ofGrid[g];
             } else if (made.droppedCount++ < kShownDropped) {
-                made.dropped.push_back(grid.place(grid.node(node)));
+                made.dropped.push_back(position);
             }
         }
     }
@@ -180,7 +214,16 @@ CacheAllocation allocateForView(const TraceScene& trace, const Scene& scene, con
     if (grids.grids.empty())
         return {};
     ViewHits seen = traceView(trace, view, progress);
-    CacheAllocation made = numberCaches(grids, demandOf(seen, grids), settings.caches);
+    WantedNodes wanted(grids.nodes(), 0);
+    visitCells(seen, grids, [&](std::uint32_t g, glm::uvec3 cell, const Hit&) {
+        wantNodes(grids, g, cell, wanted);
+    });
+    CacheAllocation made = numberCaches(grids, wanted, settings.caches);
+    CachePlaceSums sums(made.caches());
+    visitCells(seen, grids, [&](std::uint32_t g, glm::uvec3 cell, const Hit& hit) {
+        addSurface(made, g, cell, hit.position, normalTowardsEye(hit), sums);
+    });
+    setPlaces(made, sums);
     made.rays = seen.hits.size();
     std::erase_if(seen.hits, [](const Hit& hit) { return !hit; });
     made.pixels = seen.hits.size();
@@ -190,17 +233,21 @@ CacheAllocation allocateForView(const TraceScene& trace, const Scene& scene, con
 }
 
 CacheAllocation allocateForScene(const Scene& scene, const VolumeSettings& settings) {
-    constexpr std::uint32_t kMostCells = 255; // along a side
-    std::uint32_t fits = 1, tooFine = kMostCells + 1;
+    std::uint32_t fits = 1, tooFine = kMaxCells + 1;
     if (gridOver(scene.bounds, fits).grids.empty())
         return {};
     while (tooFine - fits > 1) {
         const std::uint32_t cells = (fits + tooFine) / 2;
-        const CacheGrids grids = gridOver(scene.bounds, cells);
-        (demandOf(scene, grids).count() > settings.caches ? tooFine : fits) = cells;
+        const WantedNodes wanted = nodesOfSurfaces(scene, gridOver(scene.bounds, cells));
+        (std::size_t(std::ranges::count(wanted, 1)) > settings.caches ? tooFine : fits) = cells;
     }
     const CacheGrids grids = gridOver(scene.bounds, fits);
-    CacheAllocation made = numberCaches(grids, demandOf(scene, grids), settings.caches);
+    CacheAllocation made = numberCaches(grids, nodesOfSurfaces(scene, grids), settings.caches);
+    CachePlaceSums sums(made.caches());
+    visitCells(scene, grids.grids[0], [&](glm::uvec3 cell, glm::vec3 p, glm::vec3 normal) {
+        addSurface(made, 0, cell, p, normal, sums);
+    });
+    setPlaces(made, sums);
     made.shown = someOf(scene);
     return made;
 }

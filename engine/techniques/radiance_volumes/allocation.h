@@ -4,7 +4,7 @@
 #include "engine/core/progress.h"
 #include "engine/scene/camera.h"
 #include "engine/techniques/radiance_volumes/cache_grids.h"
-#include "engine/techniques/radiance_volumes/node_demand.h"
+#include "engine/techniques/radiance_volumes/cache_place.h"
 #include "engine/techniques/radiance_volumes/volume_settings.h"
 #include "engine/trace/trace_scene.h"
 
@@ -38,9 +38,16 @@ struct CacheAllocation {
     std::size_t bytes() const;
 };
 
+/// Which nodes of grids want a cache: 1 for each that does, in the order of the nodes of all grids.
+using WantedNodes = std::vector<std::uint8_t>;
+
+/// Wants the eight nodes of a cell. Several threads may do so at once.
+void wantNodes(const CacheGrids& grids, std::size_t grid, glm::uvec3 cell, WantedNodes& wanted);
+
 /// Numbers at most `caches` of the nodes that are wanted, those of coarse grids first, then in
-/// their order; the others are dropped.
-CacheAllocation numberCaches(const CacheGrids& grids, const NodeDemand& demand, std::size_t caches);
+/// their order; the others are dropped. Sets no more of the caches' places than their positions.
+CacheAllocation numberCaches(const CacheGrids& grids, const WantedNodes& wanted,
+                             std::size_t caches);
 
 /// Caches for the pixels of a view: those of the nodes about what a ray through each pixel's middle
 /// meets, in cascadesAbout() its eye. Incomplete when cancelled.

@@ -14,6 +14,11 @@
 
 namespace limn {
 
+/// The first node of a cell is its corner 0; corner 7 is the one opposite.
+inline glm::uvec3 cellCorner(glm::uvec3 cell, std::uint32_t corner) {
+    return cell + glm::uvec3(corner & 1, corner >> 1 & 1, corner >> 2);
+}
+
 /// A regular grid of nodes at which there may be caches.
 struct CacheGrid {
     glm::vec3 lower{0};  ///< place of the first node

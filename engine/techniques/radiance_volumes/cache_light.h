@@ -3,8 +3,8 @@
 
 #include "engine/core/progress.h"
 #include "engine/techniques/radiance_volumes/area_lights.h"
+#include "engine/techniques/radiance_volumes/cache_place.h"
 #include "engine/techniques/radiance_volumes/glossy_map.h"
-#include "engine/techniques/radiance_volumes/node_demand.h"
 #include "engine/techniques/radiance_volumes/shadow_cone.h"
 
 #include <cstddef>

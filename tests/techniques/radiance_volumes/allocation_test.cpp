@@ -130,11 +130,11 @@ TEST(CacheAllocation, OfAPlaneHasTheCornersOfItsCells) {
     scene.bounds = {glm::vec3(0), glm::vec3(7)};
     CacheGrids grids = gridOver(scene.bounds, 7);
     ASSERT_EQ(grids.grids[0].nodes, glm::uvec3(8));
-    NodeDemand demand(grids);
+    WantedNodes wanted(grids.nodes(), 0);
     for (float x = 0.15f; x < 3.9f; x += 0.1f)
         for (float z = 0.15f; z < 5.9f; z += 0.1f)
-            demand.want(0, grids.grids[0].cellAt({x, 0.43f, z}));
-    EXPECT_EQ(demand.count(), 2U * (4 + 1) * (6 + 1));
+            wantNodes(grids, 0, grids.grids[0].cellAt({x, 0.43f, z}), wanted);
+    EXPECT_EQ(std::ranges::count(wanted, 1), 2 * (4 + 1) * (6 + 1));
     scene.instances.resize(1);
     for (const std::uint32_t caches : {2U * 5 * 7, 200U}) {
         const CacheAllocation made = allocateForScene(scene, {.caches = caches});

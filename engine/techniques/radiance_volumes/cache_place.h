@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/techniques/radiance_volumes/cache_grids.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -24,29 +22,21 @@ struct CachePlace {
     bool operator==(const CachePlace&) const = default;
 };
 
-/// Which nodes surfaces want a cache at. Whole numbers are summed, so that the result does not
-/// depend on the order; the functions may run in several threads at once.
-class NodeDemand {
+/// Sums over the surfaces about each cache. Whole numbers are summed, so that the result does not
+/// depend on the order, and several threads may add at once.
+class CachePlaceSums {
 public:
-    explicit NodeDemand(const CacheGrids& grids);
+    explicit CachePlaceSums(std::size_t caches) : m_sums(caches) {}
 
-    /// Wants the eight nodes of a cell.
-    void want(std::size_t grid, glm::uvec3 cell);
-    /// The same, for a surface through point `p` with that unit normal, which counts in the places
-    /// of their caches.
-    void want(std::size_t grid, glm::uvec3 cell, glm::vec3 p, glm::vec3 normal);
-
-    bool wanted(std::size_t grid, std::size_t node) const;
-    std::size_t count() const;
-    CachePlace place(std::size_t grid, std::size_t node) const;
+    /// Adds a surface through point `p` with unit `normal`. `position`, `cell`: place of the cache,
+    /// and the side of its grid's cells [m].
+    void add(std::size_t cache, glm::vec3 position, float cell, glm::vec3 p, glm::vec3 normal);
+    CachePlace place(std::size_t cache, glm::vec3 position, float cell) const;
 
 private:
     struct Sums {
         std::int64_t surfaces = 0, x = 0, y = 0, z = 0, height = 0;
     };
-    const CacheGrids& m_grids;
-    std::vector<std::size_t> m_first; ///< node of each grid
-    std::vector<std::uint8_t> m_wanted;
     std::vector<Sums> m_sums;
 };
 
