@@ -32,23 +32,11 @@ bool isEmpty(const VoxelVolume& volume, LevelPair level, glm::vec3 p) {
     return isEmptyAbout(volume, p, 1.5f * float(1U << coarse));
 }
 
-float opacityOf(const VoxelVolume& volume, std::span<const VoxelLevel> chain, LevelPair level,
-                glm::vec3 p) {
-    const float fine = opacityAt(volume, chain, level.fine, p);
+float opacityOf(const VoxelVolume& volume, LevelPair level, glm::vec3 p, glm::vec3 weight) {
+    const float fine = opacityAt(volume, level.fine, p, weight);
     if (!(level.toCoarse > 0))
         return fine;
-    return fine + level.toCoarse * (opacityAt(volume, chain, level.fine + 1, p) - fine);
-}
-
-float directionalOpacity(const VoxelVolume& volume, LevelPair level, glm::vec3 p,
-                         glm::vec3 weight) {
-    if (level.fine == 0 && !(level.toCoarse > 0))
-        return opacityAt(volume, {}, 0, p); // the same along each axis
-    float sum = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        if (weight[axis] > 0)
-            sum += weight[axis] * opacityOf(volume, volume.along[std::size_t(axis)], level, p);
-    return sum;
+    return fine + level.toCoarse * (opacityAt(volume, level.fine + 1, p, weight) - fine);
 }
 
 } // namespace
@@ -67,7 +55,7 @@ float coneVisibility(const VoxelVolume& volume, ConeShadows shadows, glm::vec3 f
             const LevelPair level(radius, volume.levels());
             const glm::vec3 p = from + distance * direction;
             if (!isEmpty(volume, level, p))
-                clear *= 1 - opacityOf(volume, volume.mean, level, p);
+                clear *= 1 - opacityOf(volume, level, p, glm::vec3(0));
             distance += std::max(1.f, 2 * radius / (1 - sine));
         }
         return clear;
@@ -77,7 +65,7 @@ float coneVisibility(const VoxelVolume& volume, ConeShadows shadows, glm::vec3 f
         const LevelPair level(radius, volume.levels());
         const glm::vec3 p = from + distance * direction;
         if (!isEmpty(volume, level, p))
-            clear *= 1 - directionalOpacity(volume, level, p, weight);
+            clear *= 1 - opacityOf(volume, level, p, weight);
         distance += std::max(1.f, radius);
     }
     return clear > kDark ? clear : 0;

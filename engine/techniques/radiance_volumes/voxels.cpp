@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace limn {
 
@@ -148,25 +149,32 @@ bool isEmptyAbout(const VoxelVolume& volume, glm::vec3 p, float reach) {
     return float(volume.distance[cell]) - 0.5f - away >= reach;
 }
 
-float opacityAt(const VoxelVolume& volume, std::span<const VoxelLevel> chain, std::uint32_t level,
-                glm::vec3 p) {
+float opacityAt(const VoxelVolume& volume, std::uint32_t level, glm::vec3 p, glm::vec3 weight) {
     const int side = int(volume.side() >> level);
-    const LevelView cells{level == 0 ? &volume.solid : nullptr,
-                          level == 0 ? nullptr : &chain[level - 1], std::size_t(side)};
     const glm::vec3 at = p / float(1U << level) - 0.5f;
     const glm::vec3 base = glm::floor(at), f = at - base;
     const glm::ivec3 c(base);
+    const bool directional = weight != glm::vec3(0);
     float sum = 0;
     for (int k = 0; k < 8; ++k) {
         const glm::ivec3 step(k & 1, k >> 1 & 1, k >> 2), cell = c + step;
-        if (cell.x < 0 || cell.y < 0 || cell.z < 0 || cell.x >= side || cell.y >= side ||
-            cell.z >= side)
+        // Negative ones are above all sides as unsigned numbers.
+        if (glm::any(glm::greaterThanEqual(glm::uvec3(cell), glm::uvec3(std::uint32_t(side)))))
             continue;
         const glm::vec3 w = glm::mix(1.f - f, f, glm::vec3(step));
-        sum +=
-            w.x * w.y * w.z * cells(std::size_t(cell.x), std::size_t(cell.y), std::size_t(cell.z));
+        const std::size_t i = std::size_t((cell.z * side + cell.y) * side + cell.x);
+        float opacity = 0;
+        if (level == 0)
+            opacity = volume.distance[i] == 0 ? 255.f : 0.f;
+        else if (directional)
+            opacity = weight.x * float(volume.along[0][level - 1][i]) +
+                      weight.y * float(volume.along[1][level - 1][i]) +
+                      weight.z * float(volume.along[2][level - 1][i]);
+        else
+            opacity = float(volume.mean[level - 1][i]);
+        sum += w.x * w.y * w.z * opacity;
     }
-    return sum;
+    return sum * (1 / 255.f);
 }
 
 } // namespace limn

@@ -8,7 +8,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace limn {
@@ -50,9 +49,9 @@ void averageVoxels(VoxelVolume& volume);
 /// false where they are.
 bool isEmptyAbout(const VoxelVolume& volume, glm::vec3 p, float reach);
 
-/// Trilinear opacity at a point of a level, in [0, 1]. `p`: in cells of level 0, from the lower
-/// corner; outside the cube nothing is opaque. `chain`: `mean`, or one of `along`.
-float opacityAt(const VoxelVolume& volume, std::span<const VoxelLevel> chain, std::uint32_t level,
-                glm::vec3 p);
+/// Trilinear opacity at a point of a level, in [0, 1]: of the mean, or, where it is not 0, of the
+/// chains along the axes, weighted by `weight`, whose sum is 1. `p`: in cells of level 0, from the
+/// lower corner; outside the cube nothing is opaque.
+float opacityAt(const VoxelVolume& volume, std::uint32_t level, glm::vec3 p, glm::vec3 weight);
 
 } // namespace limn
