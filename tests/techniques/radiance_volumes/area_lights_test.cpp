@@ -112,6 +112,8 @@ TEST(AreaLights, LieOnTheSurfacesThatTheyStandFor) {
     }
     EXPECT_NEAR(area * kPi, truth, 2e-3 * truth);
     EXPECT_EQ(point.blocks.size(), point.count() / 4);
+    for (const AreaLightBlock& block : point.blocks)
+        EXPECT_FLOAT_EQ(block.width, 0.5f) << "four along a face that is 2 wide at a distance of 1";
 }
 
 TEST(AreaLights, AreReadOfALevelThatViewsShare) {
