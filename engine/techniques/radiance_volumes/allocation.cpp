@@ -133,8 +133,8 @@ std::size_t countMissed(const CacheAllocation& made, std::span<const Hit> points
 }
 
 /// One hit of each stretch at random: even steps would show in rows.
-std::vector<SeenPoint> someOf(std::span<const Hit> hits, const CacheGrids& grids) {
-    std::vector<SeenPoint> points;
+std::vector<ShownPoint> someOf(std::span<const Hit> hits, const CacheGrids& grids) {
+    std::vector<ShownPoint> points;
     const std::size_t count = std::min(hits.size(), kShownPoints);
     for (std::size_t k = 0; k < count; ++k) {
         const std::size_t begin = k * hits.size() / count, end = (k + 1) * hits.size() / count;
@@ -146,12 +146,12 @@ std::vector<SeenPoint> someOf(std::span<const Hit> hits, const CacheGrids& grids
 }
 
 /// Middles of triangles of the scene, evenly spread over their numbers.
-std::vector<SeenPoint> someOf(const Scene& scene) {
+std::vector<ShownPoint> someOf(const Scene& scene) {
     std::size_t triangles = 0;
     for (const Instance& instance : scene.instances)
         triangles += scene.meshOf(instance).triangleCount();
     const std::size_t step = triangles / kShownPoints + 1;
-    std::vector<SeenPoint> points;
+    std::vector<ShownPoint> points;
     std::size_t number = 0;
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshOf(instance);

@@ -15,7 +15,7 @@
 namespace limn {
 
 /// A point of a surface that a view shows.
-struct SeenPoint {
+struct ShownPoint {
     glm::vec3 position{0};
     glm::vec3 normal{0};    ///< unit, geometric, towards the eye
     std::uint32_t grid = 0; ///< of the finest grid that lights it
@@ -31,7 +31,7 @@ struct CacheAllocation {
     std::size_t droppedCount = 0;       ///< number of all those
     std::size_t missed = 0;             ///< pixels that find no cache
     std::size_t pixels = 0;             ///< that show a surface; 0: of no view
-    std::vector<SeenPoint> shown;       ///< some points of the view, evenly spread
+    std::vector<ShownPoint> shown;      ///< some points of the view, evenly spread
     std::uint64_t rays = 0;
 
     std::size_t caches() const { return places.size(); }

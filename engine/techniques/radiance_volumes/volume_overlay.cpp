@@ -109,7 +109,7 @@ OverlayData cascadesOverlay(const CacheAllocation& caches) {
     const std::size_t grids = caches.ofGrid.size();
     const CacheGrid& largest = caches.grids.grids.back();
     const float radius = kPointScale * largest.cell * float(largest.nodes.x);
-    for (const SeenPoint& point : caches.shown) {
+    for (const ShownPoint& point : caches.shown) {
         const GridShares shares = gridShares(caches.grids, point.position);
         glm::vec3 color(0);
         for (std::size_t k = 0; k < shares.count; ++k)
