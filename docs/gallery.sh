@@ -80,7 +80,7 @@ render sparse-probes "Sparse radiance probes" cornell "${square[@]}" --technique
 render lpv-leak "Irradiance in a sealed dark room: light propagation volumes carry it through the wall" generated:23 "${wide[@]}" \
     --camera "Dark room" --technique lpv --view irradiance
 render lpv-cells "Irradiance by a lattice of 8 cells a side: patches on walls and ceiling have the size of its cells" cornell \
-    "${square[@]}" --technique lpv --set lpv.resolution=8 --view irradiance
+    "${square[@]}" --technique lpv --set lpv.resolution=8 --set lpv.rounds=16 --view irradiance
 render probes-dark "Irradiance by light field probes: passages whose probes stand in the court are nearly black" atrium "${wide[@]}" \
     --technique probes --view irradiance
 render probes-ring "Probes whose harmonics ring: magenta sides would get less than no light" atrium "${wide[@]}" --technique probes \
