@@ -20,11 +20,8 @@
 namespace limn {
 
 static constexpr std::array kTechniques = {
-    &kIlluminanceTechnique,  &kAmbientTechnique, &kLpvTechnique,      &kProbesTechnique,
-    &kSparseProbesTechnique, &kPhotonTechnique,  &kLightSkinTechnique};
-&kIlluminanceTechnique, &kAmbientTechnique, &kLpvTechnique, &kProbesTechnique,
-    &kRadianceVolumesTechnique, &kSparseProbesTechnique
-};
+    &kIlluminanceTechnique,  &kAmbientTechnique, &kLpvTechnique,       &kProbesTechnique,
+    &kSparseProbesTechnique, &kPhotonTechnique,  &kLightSkinTechnique, &kRadianceVolumesTechnique};
 
 std::span<const Technique* const> techniques() {
     return kTechniques;
