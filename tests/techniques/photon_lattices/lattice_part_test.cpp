@@ -130,6 +130,23 @@ TEST(PhotonLattice, RepeatsItsSharesForRadianceAndLobes) {
     EXPECT_FALSE(part->equals(PhotonLatticePart(part->cells(), true, false)));
 }
 
+// Hits on a wall in the face between two cells lie on either side of it by rounding.
+TEST(PhotonLattice, PutsASurfaceInAFaceIntoTheCellThatItFaces) {
+    const Lattice lattice{.lower = glm::vec3(0), .cell = 0.5f, .size = glm::uvec3(4)};
+    for (const float error : {-1e-6f, 0.f, 1e-6f}) {
+        const glm::vec3 p(1 + error, 0.3f, 0.3f);
+        EXPECT_EQ(cellOf(lattice, p, {1, 0, 0}), 2U);
+        EXPECT_EQ(cellOf(lattice, p, {-1, 0, 0}), 1U);
+    }
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.5f)));
+    b.add(simple::quad({1, 0.1f, 0.1f}, {0, 0.2f, 0}, {0, 0, 0.2f}));
+    const std::uint32_t first = 0;
+    const auto cells = surfaceAreas(b.build(), {&first, 1}, lattice);
+    ASSERT_EQ(cells.size(), 1U);
+    EXPECT_EQ(cells[0].cell, 2U);
+}
+
 /// Light and surface in each cell of a floor of 6 x 6 cells, all alike but for noise of the light.
 LitCells floorCells(float noise) {
     const Lattice lattice{.lower = glm::vec3(0), .cell = 0.5f, .size = {6, 3, 6}};

@@ -113,6 +113,20 @@ TEST(PhotonLattices, LightASphereEvenly) {
     }
 }
 
+// Where everything has radiance L, irradiance is pi L: walls that emit (1 - rho) L and reflect the
+// rest. First hits are stored; without them the direct light of emitters would be missing.
+TEST(PhotonLattices, FillAFurnace) {
+    constexpr float kAlbedo = 0.6f, kRadiance = 2;
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(kAlbedo), glm::vec3((1 - kAlbedo) * kRadiance)));
+    b.add(simple::sphere(2, 4, true));
+    LitByPhotons lit(b.build(), {{"bounces", 64}, {"blur", 0}});
+    lit.update();
+    const SphereError error = sphereError(lit, double(kPi * kRadiance));
+    std::printf("furnace: mean %.4f, nRMSE %.4f\n", error.mean, error.rms);
+    EXPECT_NEAR(error.mean, 0, 0.02);
+}
+
 // A mirror ring of radius R focuses the sun on the floor half-way from the axis to its far side.
 TEST(PhotonLattices, CastTheCausticOfARing) {
     constexpr float kRadius = 1, kHeight = 0.6f;
