@@ -8,6 +8,7 @@
 #include "shaders/shared/gpu_skin.h"
 
 layout(constant_id = 2) const bool kGlossy = true; // there are glossy proxies
+layout(constant_id = 3) const float kNearestProxy = 0.5; // as that of skin_part.h
 
 layout(set = 0, binding = FRAME_REFLECTIONS) uniform sampler2DArray reflectionTable;
 layout(set = 1, binding = SKIN_CACHES, std430) readonly buffer Caches { GpuSkinCache caches[]; };
@@ -85,9 +86,15 @@ vec3 mirroredWay(vec3 position, vec3 normal) {
 /// A point light in place of all proxies near a surface.
 struct MeanProxy {
     vec3 place, flux;
+    float distance; // of the proxies from their caches
 };
 
-/// Weighted sums over the list's caches; flux 0 where none of them lights the surface.
+MeanProxy over(MeanProxy sums, float weight) {
+    return weight > 0.0 ? MeanProxy(sums.place / weight, sums.flux / weight, sums.distance / weight)
+                        : MeanProxy(vec3(0), vec3(0), 1.0);
+}
+
+/// Weighted means over the list's caches; flux 0 where none of them lights the surface.
 void meanProxies(GpuSkinInstance instance, uint list, PackedSurface s, out MeanProxy diffuse, out MeanProxy glossy) {
     const vec3 mirrored = mirroredWay(s.position, s.detailNormal);
     float farthest = 0.0;
@@ -98,8 +105,8 @@ void meanProxies(GpuSkinInstance instance, uint list, PackedSurface s, out MeanP
     }
     if (count < 16u)
         farthest *= 2.0;
-    diffuse = MeanProxy(vec3(0), vec3(0));
-    glossy = MeanProxy(vec3(0), vec3(0));
+    diffuse = MeanProxy(vec3(0), vec3(0), 0.0);
+    glossy = MeanProxy(vec3(0), vec3(0), 0.0);
     float sum = 0.0, glossySum = 0.0;
     for (uint i = 0u; i < count; ++i) {
         const uint c = instance.cache + lists[list].cache[i / 4u][i % 4u];
@@ -109,22 +116,24 @@ void meanProxies(GpuSkinInstance instance, uint list, PackedSurface s, out MeanP
         sum += w;
         diffuse.place += w * proxies[c].diffusePlace;
         diffuse.flux += w * proxies[c].diffuseFlux;
+        diffuse.distance += w * proxies[c].diffuseDistance;
         if (!kGlossy || kView != VIEW_LIT)
             continue;
         const float g = near * sqrt(max(dot(mirrored, mirroredWay(cache.position, cache.normal)), 0.0));
         glossySum += g;
         glossy.place += g * proxies[c].glossyPlace;
         glossy.flux += g * proxies[c].glossyFlux;
+        glossy.distance += g * proxies[c].glossyDistance;
     }
-    diffuse = sum > 0.0 ? MeanProxy(diffuse.place / sum, diffuse.flux / sum) : MeanProxy(s.position, vec3(0));
-    glossy = glossySum > 0.0 ? MeanProxy(glossy.place / glossySum, glossy.flux / glossySum) : MeanProxy(s.position, vec3(0));
+    diffuse = over(diffuse, sum);
+    glossy = over(glossy, glossySum);
 }
 
 /// Irradiance of a point light, and the way to it.
-vec3 irradianceOf(MeanProxy proxy, PackedSurface s, float nearest, out vec3 direction) {
+vec3 irradianceOf(MeanProxy proxy, PackedSurface s, out vec3 direction) {
     const vec3 way = proxy.place - s.position;
-    const float r = max(length(way), nearest);
-    direction = way / r;
+    const float l = max(length(way), 1e-12), r = max(l, max(kNearestProxy * proxy.distance, 1e-12));
+    direction = way / l;
     return proxy.flux * (max(dot(direction, s.detailNormal), 0.0) / (4.0 * kPi * r * r));
 }
 
@@ -134,9 +143,9 @@ float glossExponent(float roughness) {
     return clamp((2.0 / max(alpha2, 1e-6) - 2.0) / 4.0, 1.0, 500.0);
 }
 
-vec3 reflected(MeanProxy proxy, PackedSurface s, float nearest) {
+vec3 reflected(MeanProxy proxy, PackedSurface s) {
     vec3 direction;
-    const vec3 irradiance = irradianceOf(proxy, s, nearest, direction);
+    const vec3 irradiance = irradianceOf(proxy, s, direction);
     const float exponent = glossExponent(s.roughness);
     const float cosine = clamp(dot(mirroredWay(s.position, s.detailNormal), direction), 0.0, 1.0);
     const float lobe = (exponent + 2.0) / (2.0 * kPi) * pow(cosine, exponent);
@@ -158,7 +167,7 @@ void main() {
     MeanProxy diffuse, glossy;
     meanProxies(instance, list, s, diffuse, glossy);
     vec3 direction;
-    const vec3 irradiance = irradianceOf(diffuse, s, instance.nearest, direction);
-    const vec3 specular = kGlossy && kView == VIEW_LIT ? reflected(glossy, s, instance.nearest) : vec3(0);
+    const vec3 irradiance = irradianceOf(diffuse, s, direction);
+    const vec3 specular = kGlossy && kView == VIEW_LIT ? reflected(glossy, s) : vec3(0);
     writeLight(s, irradiance, specular);
 }

@@ -45,10 +45,10 @@ struct GpuSkinCube {
 };
 
 struct GpuSkinProxies {
-    vec3 diffusePlace; float pad0; // m
-    vec3 diffuseFlux;  float pad1; // W
-    vec3 glossyPlace;  float pad2;
-    vec3 glossyFlux;   float pad3;
+    vec3 diffusePlace; float diffuseDistance; // m; from the cache
+    vec3 diffuseFlux;  float pad0; // W
+    vec3 glossyPlace;  float glossyDistance;
+    vec3 glossyFlux;   float pad1;
 };
 
 struct GpuSkinInstance {
@@ -56,7 +56,7 @@ struct GpuSkinInstance {
     vec3 normalRow0; uint cache;  // rows of the matrix of normals, not normalised; number of its first cache
     vec3 normalRow1; uint cube;   // of its mesh's first cube
     vec3 normalRow2; uint cubes;  // number of those
-    float edge, nearest; uint pad0, pad1; // of a cube, object space; distance at which proxies count as nearest, m
+    float edge; uint pad0, pad1, pad2; // of a cube, in object space
 };
 // clang-format on
 

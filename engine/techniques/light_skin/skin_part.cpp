@@ -16,6 +16,7 @@ namespace limn {
 namespace {
 
 constexpr float kPartPi = std::numbers::pi_v<float>;
+constexpr float kTiny = 1e-12f; ///< avoids a division by 0 [m]
 
 /// Weights of the list; factor(c) is that of the directions.
 template <class Factor>
@@ -51,14 +52,19 @@ struct WayToProxy {
     float perFlux = 0;      ///< (4 pi r^2)^-1
 };
 template <class ProxyOf>
-WayToProxy wayToProxy(const SkinWeights& weights, glm::vec3 position, float nearest,
+WayToProxy wayToProxy(const LightCaches& caches, const SkinWeights& weights, glm::vec3 position,
                       const ProxyOf& proxyOf) {
     glm::vec3 place(0);
-    for (std::size_t i = 0; i < weights.count; ++i)
-        place += weights.weight[i] * proxyOf(weights.cache[i]).position;
+    float distance = 0; // of the proxies from their caches, on average
+    for (std::size_t i = 0; i < weights.count; ++i) {
+        const glm::vec3 proxy = proxyOf(weights.cache[i]).position;
+        place += weights.weight[i] * proxy;
+        distance += weights.weight[i] * glm::distance(proxy, caches.position[weights.cache[i]]);
+    }
     const glm::vec3 way = place - position;
-    const float r = std::max(glm::length(way), nearest);
-    return {way / r, 1 / (4 * kPartPi * r * r)};
+    const float length = std::max(glm::length(way), kTiny);
+    const float r = std::max({length, kNearestProxy * distance, kTiny});
+    return {way / length, 1 / (4 * kPartPi * r * r)};
 }
 
 } // namespace
@@ -100,9 +106,10 @@ void SkinPart::irradianceTaps(const FieldPoint& point, FieldTaps& taps) const {
         skinWeights(caches, {list.data(), count}, point.position, point.normal);
     if (weights.count == 0)
         return;
-    const WayToProxy way = wayToProxy(
-        weights, point.position, kNearestProxy * caches.spacing,
-        [&](std::uint32_t c) -> const ProxyLight& { return m_light.proxies[c].diffuse; });
+    const WayToProxy way =
+        wayToProxy(caches, weights, point.position, [&](std::uint32_t c) -> const ProxyLight& {
+            return m_light.proxies[c].diffuse;
+        });
     const float perFlux = way.perFlux * std::max(glm::dot(way.direction, point.normal), 0.f);
     if (perFlux > 0)
         for (std::size_t i = 0; i < weights.count; ++i)
@@ -129,7 +136,7 @@ void SkinPart::lobeTaps(const FieldPoint& point, glm::vec3 /*direction*/, int /*
     if (weights.count == 0)
         return;
     const WayToProxy way =
-        wayToProxy(weights, point.position, kNearestProxy * caches.spacing,
+        wayToProxy(caches, weights, point.position,
                    [&](std::uint32_t c) -> const ProxyLight& { return m_light.proxies[c].glossy; });
     const float roughness = surfaceGloss(point.scene, point.scene.instances[point.instance],
                                          point.triangle, point.u, point.v)

@@ -16,8 +16,10 @@
 
 namespace limn {
 
-/// Proxies nearer to a point than this share of the spacing light it as from there.
-inline constexpr float kNearestProxy = 1e-3f;
+/// Where the mean place of proxies lies nearer to a point than this share of their mean distance
+/// from their caches, it lights the point as from there. Such places lie between proxies in
+/// different directions, where no light is; the paper has no bound, and bright dots there.
+inline constexpr float kNearestProxy = 0.5f;
 
 /// The caches that light a surface point, with weights whose sum is 1.
 struct SkinWeights {

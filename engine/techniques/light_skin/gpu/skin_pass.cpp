@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 namespace limn {
@@ -59,9 +61,8 @@ struct MeshTables {
     }
 };
 
-GpuSkinInstance instanceOf(const LightCaches::Placed& placed, float spacing, MeshTables& tables) {
+GpuSkinInstance instanceOf(const LightCaches::Placed& placed, MeshTables& tables) {
     GpuSkinInstance instance{};
-    instance.nearest = kNearestProxy * spacing;
     instance.edge = 1;
     if (!placed.skin)
         return instance;
@@ -88,7 +89,7 @@ std::shared_ptr<const GpuSkin> uploadSkin(gpu::Device& device, const LightCaches
     MeshTables tables;
     std::vector<GpuSkinInstance> instances;
     for (const LightCaches::Placed& placed : caches.instances)
-        instances.push_back(instanceOf(placed, caches.spacing, tables));
+        instances.push_back(instanceOf(placed, tables));
     gpu::Uploader uploader(device);
     GpuSkin skin;
     skin.caches = uploaded(uploader, std::move(places), "light caches");
@@ -102,11 +103,16 @@ std::shared_ptr<const GpuSkin> uploadSkin(gpu::Device& device, const LightCaches
 gpu::Buffer uploadProxies(gpu::Device& device, const SkinPart::Light& light) {
     const std::size_t count = light.proxies.size();
     std::vector<GpuSkinProxies> proxies;
-    for (std::size_t c = 0; c < count; ++c)
-        proxies.push_back({.diffusePlace = light.proxies[c].diffuse.position,
+    for (std::size_t c = 0; c < count; ++c) {
+        const CacheProxies& both = light.proxies[c];
+        const glm::vec3 cache = light.caches->position[c];
+        proxies.push_back({.diffusePlace = both.diffuse.position,
+                           .diffuseDistance = glm::distance(both.diffuse.position, cache),
                            .diffuseFlux = light.flux[c],
-                           .glossyPlace = light.proxies[c].glossy.position,
+                           .glossyPlace = both.glossy.position,
+                           .glossyDistance = glm::distance(both.glossy.position, cache),
                            .glossyFlux = light.flux[count + c]});
+    }
     gpu::Uploader uploader(device);
     return uploaded(uploader, std::move(proxies), "proxy lights");
 }
@@ -119,7 +125,8 @@ SkinPass::SkinPass(gpu::Device& device, const Viewport& viewport,
       m_pool(gpu::createDescriptorPool(device, 1, kSkinTypes)),
       m_set(gpu::allocateSet(device, m_pool, m_setLayout)),
       m_pipelines(device, viewport.frameLayout(), std::array{m_setLayout.handle}, kSkinLightFrag,
-                  {glossy ? 1U : 0U}, "light on objects") {
+                  {glossy ? 1U : 0U, std::bit_cast<std::uint32_t>(kNearestProxy)},
+                  "light on objects") {
     const auto bind = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
         gpu::writeBuffer(device, m_set, binding, kSkinBuffer, buffer.handle);
     };
