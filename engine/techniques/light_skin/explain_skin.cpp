@@ -29,15 +29,16 @@ std::map<std::uint32_t, GatheringLights> byInstance(const SkinLight& light) {
 /// flux per light.
 glm::dvec3 valueOfLights(const SkinState& state, const SkinInputs& inputs,
                          const FieldReading& reading, const GatheringLights& from) {
-    const std::size_t caches = state.caches()->size();
-    const glm::vec3* eye = inputs.isGlossy() ? &inputs.view->camera.eye : nullptr;
+    const std::size_t caches = state.objects().caches()->size();
+    const glm::vec3* eye = inputs.eye();
     glm::dvec3 sum(0);
     for (const FieldReading::PartNumber& number : reading.partNumbers) {
         const bool glossy = number.index >= caches;
         const std::size_t c = glossy ? number.index - caches : number.index;
-        const CacheSums received = gatherLight(
-            from, gatheringCache(*state.caches(), state.exponents(), glossy ? eye : nullptr, c));
-        const CacheProxies& both = state.proxies()[c];
+        const CacheSums received =
+            gatherLight(from, gatheringCache(*state.objects().caches(), state.objects().exponents(),
+                                             glossy ? eye : nullptr, c));
+        const CacheProxies& both = state.objects().proxies()[c];
         const ProxyLight& proxy = glossy ? both.glossy : both.diffuse;
         const glm::vec3 light = glossy ? received.glossy.light : received.diffuse.light;
         sum += glm::dvec3(number.weight * light) * (double(proxy.fluxOfLight) * double(proxy.lit));

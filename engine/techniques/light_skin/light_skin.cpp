@@ -38,7 +38,7 @@ public:
                 report.converged = report.whole = false;
             }
         }
-        describeSkin(m_state, cost, report);
+        describeSkin(m_state.objects(), m_state.bytes(), cost, report);
         report.steps.push_back(
             {"field", "Field", "Flux of the proxy lights in the lights' colours", fieldMs});
         report.totalMs = whole.lap();
@@ -65,9 +65,11 @@ private:
     /// Returns the milliseconds that it took.
     double writeField(const SkinInputs& now) {
         Stopwatch clock;
-        SkinPart::Light light{m_state.caches(), m_state.proxies(), m_state.fluxes(now.sources), {}};
-        if (now.isGlossy())
-            light.eye = now.view->camera.eye;
+        const SkinObjects& objects = m_state.objects();
+        SkinPart::Light light{
+            objects.caches(), objects.proxies(), objects.fluxes(m_state.gathered(now.sources)), {}};
+        if (const glm::vec3* eye = now.eye())
+            light.eye = *eye;
         m_field.parts = {std::make_shared<const SkinPart>(std::move(light))};
         ++m_field.version;
         return clock.lap();

@@ -28,6 +28,8 @@ struct SkinInputs {
 
     /// Whether caches have glossy proxies.
     bool isGlossy() const { return settings.glossy && view.has_value(); }
+    /// For which these are; null where there are none.
+    const glm::vec3* eye() const { return isGlossy() ? &view->camera.eye : nullptr; }
 };
 SkinInputs skinInputsOf(const Scene& scene, const Viewpoint* view);
 

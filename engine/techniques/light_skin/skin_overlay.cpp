@@ -213,11 +213,12 @@ void addShown(const SkinLight& light, LitSkin& lit) {
 } // namespace
 
 LitSkin litSkinOf(const SkinState& state, const SkinInputs& inputs) {
-    LitSkin lit{.caches = state.caches(),
-                .proxies = state.proxies(),
-                .irradiance = std::vector<glm::vec3>(state.caches()->size(), glm::vec3(0)),
-                .flux = state.fluxes(inputs.sources),
-                .exponents = state.exponents(),
+    LitSkin lit{.caches = state.objects().caches(),
+                .proxies = state.objects().proxies(),
+                .irradiance =
+                    std::vector<glm::vec3>(state.objects().caches()->size(), glm::vec3(0)),
+                .flux = state.objects().fluxes(state.gathered(inputs.sources)),
+                .exponents = state.objects().exponents(),
                 .samples = state.samples(),
                 .shade = inputs.settings.shade};
     for (const RsmSource& source : inputs.sources) {

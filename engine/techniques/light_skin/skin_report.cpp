@@ -3,7 +3,8 @@
 
 namespace limn {
 
-void describeSkin(const SkinState& state, const SkinCost& cost, LightingReport& report) {
+void describeSkin(const SkinObjects& objects, std::uint64_t bytes, const SkinCost& cost,
+                  LightingReport& report) {
     report.steps = {
         {"caches", "Caches", "Caches of new meshes, and those of all objects in the world",
          cost.cacheMs},
@@ -14,7 +15,7 @@ void describeSkin(const SkinState& state, const SkinCost& cost, LightingReport& 
         {"gathering", "Gathering", "Caches gather the light of chosen texels", cost.gatherMs},
         {"shade", "Proxy lights", "Proxy lights are placed and shaded by other caches",
          cost.shadeMs}};
-    const double caches = state.caches() ? double(state.caches()->size()) : 0;
+    const double caches = objects.caches() ? double(objects.caches()->size()) : 0;
     report.counters = {
         {"caches", "Caches", "Light caches on all objects", caches},
         {"meshes", "Meshes given caches", "Meshes whose caches were made", double(cost.meshes)},
@@ -23,7 +24,7 @@ void describeSkin(const SkinState& state, const SkinCost& cost, LightingReport& 
         {"lights_gathered", "Lights gathered", "Lights whose texels were gathered anew",
          double(cost.gathered)},
         {"shadow_rays", "Rays", "Rays cast for shadow maps and view samples", double(cost.rays)},
-        {"bytes", "Memory", "Caches, maps, sums and proxy lights", double(state.bytes()),
+        {"bytes", "Memory", "Caches, maps, sums and proxy lights", double(bytes),
          CounterUnit::Bytes}};
 }
 
