@@ -13,6 +13,8 @@
 #include "engine/techniques/probes/gpu/device_probes.h"
 #include "engine/techniques/probes/gpu/marched_pass.h"
 #include "engine/techniques/probes/probes.h"
+#include "engine/techniques/radiance_volumes/gpu/volume_pass.h"
+#include "engine/techniques/radiance_volumes/radiance_volumes.h"
 #include "engine/techniques/sparse_probes/gpu/device_sparse.h"
 #include "engine/techniques/sparse_probes/sparse_probes.h"
 
@@ -37,6 +39,7 @@ constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevi
                               Row{&kLpvTechnique, lightLpvOnDevice},
                               Row{&kProbesTechnique, lightProbesOnDevice, uploadMarchedPart},
                               Row{&kSparseProbesTechnique, lightSparseOnDevice},
+                              Row{&kRadianceVolumesTechnique, nullptr, uploadVolumePart},
                               Row{&kPhotonTechnique, lightPhotonsOnDevice, photonPass}};
 
 } // namespace
