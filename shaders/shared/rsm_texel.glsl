@@ -13,6 +13,8 @@ layout(binding = RSM_DEPTH) uniform sampler2D depthMap;
 struct RsmTexel {
     vec3 position, normal, albedo;
     float incident; // of a light of colour 1 and strength 1
+    float distance; // m, from the view's origin; of parallel rays, along them
+    float area;     // m^2, across the beam
 };
 
 /// Share of the light that leaves in a direction.
@@ -61,6 +63,8 @@ bool readRsmPlace(GpuRsmView view, ivec2 texel, out RsmTexel seen, out vec3 dire
         spread /= length1 * length1 * length1;
     }
     const float share = view.parallel == 1u ? 1.0 : emittedShare(view, direction);
+    seen.distance = distance;
+    seen.area = view.parallel == 1u ? spread : spread * distance * distance;
     seen.incident = view.power * spread * share * windowAt(view, direction, distance);
     if (!(seen.incident > 0.0))
         return false;

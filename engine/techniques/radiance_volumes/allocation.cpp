@@ -17,6 +17,7 @@ namespace limn {
 namespace {
 
 constexpr std::size_t kShownPoints = 4096, kShownDropped = 4096;
+constexpr glm::uvec3 kNoCell(~0U);
 constexpr std::uint32_t kMaxCells = 255; // along a side of a grid over the scene
 /// Of a view without a picture.
 constexpr float kUsualWidth = 640;
@@ -27,10 +28,12 @@ struct ViewHits {
     std::vector<Hit> hits; ///< no instance: the sky
 };
 
+glm::vec3 normalTowardsEye(const Hit& hit) {
+    return hit.geometricNormal * (hit.frontFace ? 1.f : -1.f);
+}
+
 ViewHits traceView(const TraceScene& trace, const Viewpoint& view, const Progress& progress) {
-    ViewHits seen{.size = view.size};
-    if (seen.size.x == 0 || seen.size.y == 0)
-        seen.size = glm::uvec2(kUsualWidth, std::max(kUsualWidth / view.aspect, 1.f));
+    ViewHits seen{.size = pictureSize(view)};
     const PixelRays rays(view.camera, seen.size.x, seen.size.y);
     seen.hits.resize(std::size_t(seen.size.x) * seen.size.y);
     parallelRanges(seen.size.y, 1, progress, "view", [&](std::size_t begin, std::size_t end) {
@@ -42,27 +45,25 @@ ViewHits traceView(const TraceScene& trace, const Viewpoint& view, const Progres
     return seen;
 }
 
-glm::vec3 normalTowardsEye(const Hit& hit) {
-    return hit.geometricNormal * (hit.frontFace ? 1.f : -1.f);
-}
-
-/// Calls visit(grid, cell, hit) for the cells of each hit in each grid that lights it; of hits of a
-/// row in the same cell, one after the other, for the first alone.
+/// Calls visit(grid, cell, hit) for the cell of each hit in each grid that lights it, unless the
+/// pixel to the left has the same one.
 template <class Visit>
 void visitCells(const ViewHits& seen, const CacheGrids& grids, const Visit& visit) {
     parallelRanges(seen.size.y, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t y = begin; y < end; ++y) {
-            std::vector<glm::uvec3> before(grids.grids.size(), glm::uvec3(~0U));
+            std::vector<glm::uvec3> left(grids.grids.size(), kNoCell), here = left;
             for (std::size_t x = 0; x < seen.size.x; ++x) {
+                std::swap(left, here);
+                std::ranges::fill(here, kNoCell);
                 const Hit& hit = seen.hits[y * seen.size.x + x];
                 if (!hit)
                     continue;
                 const GridShares shares = gridShares(grids, hit.position);
                 for (std::size_t k = 0; k < shares.count; ++k) {
                     const std::uint32_t g = shares.share[k].grid;
-                    const glm::uvec3 cell = grids.grids[g].cellAt(hit.position);
-                    if (std::exchange(before[g], cell) != cell)
-                        visit(g, cell, hit);
+                    here[g] = grids.grids[g].cellAt(hit.position);
+                    if (here[g] != left[g])
+                        visit(g, here[g], hit);
                 }
             }
         }
@@ -111,7 +112,7 @@ void setPlaces(CacheAllocation& made, const CachePlaceSums& sums) {
     for (std::size_t g = made.ofGrid.size(); g-- > 0;)
         for (std::size_t k = 0; k < made.ofGrid[g]; ++k, ++cache)
             made.places[cache] =
-                sums.place(cache, made.places[cache].position, made.grids.grids[g].cell);
+                placeOf(sums.of(cache), made.places[cache].position, made.grids.grids[g].cell);
 }
 
 WantedNodes nodesOfSurfaces(const Scene& scene, const CacheGrids& grids) {
@@ -145,8 +146,9 @@ std::vector<ShownPoint> someOf(std::span<const Hit> hits, const CacheGrids& grid
     return points;
 }
 
-/// Middles of triangles of the scene, evenly spread over their numbers.
-std::vector<ShownPoint> someOf(const Scene& scene) {
+} // namespace
+
+std::vector<ShownPoint> middlesOfTriangles(const Scene& scene) {
     std::size_t triangles = 0;
     for (const Instance& instance : scene.instances)
         triangles += scene.meshOf(instance).triangleCount();
@@ -170,7 +172,11 @@ std::vector<ShownPoint> someOf(const Scene& scene) {
     return points;
 }
 
-} // namespace
+glm::uvec2 pictureSize(const Viewpoint& view) {
+    if (view.size.x > 0 && view.size.y > 0)
+        return view.size;
+    return glm::uvec2(kUsualWidth, std::max(kUsualWidth / view.aspect, 1.f));
+}
 
 std::size_t CacheAllocation::bytes() const {
     return address.size() * sizeof(std::uint32_t) + places.size() * sizeof(CachePlace);
@@ -248,7 +254,7 @@ CacheAllocation allocateForScene(const Scene& scene, const VolumeSettings& setti
         addSurface(made, 0, cell, p, normal, sums);
     });
     setPlaces(made, sums);
-    made.shown = someOf(scene);
+    made.shown = middlesOfTriangles(scene);
     return made;
 }
 

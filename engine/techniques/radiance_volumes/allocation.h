@@ -49,6 +49,13 @@ void wantNodes(const CacheGrids& grids, std::size_t grid, glm::uvec3 cell, Wante
 CacheAllocation numberCaches(const CacheGrids& grids, const WantedNodes& wanted,
                              std::size_t caches);
 
+/// Middles of triangles of the scene, evenly spread over their numbers: CacheAllocation::shown
+/// where there is no view.
+std::vector<ShownPoint> middlesOfTriangles(const Scene& scene);
+
+/// Size of the picture of a view; of a usual one where it has none.
+glm::uvec2 pictureSize(const Viewpoint& view);
+
 /// Caches for the pixels of a view: those of the nodes about what a ray through each pixel's middle
 /// meets, in cascadesAbout() its eye. Incomplete when cancelled.
 CacheAllocation allocateForView(const TraceScene& trace, const Scene& scene, const Viewpoint& view,

@@ -10,7 +10,6 @@ namespace limn {
 
 namespace {
 
-constexpr float kUnit = 1 << 12;         // of normals, and of heights in cells
 constexpr float kLeastAgreement = 0.25f; // length of the mean of unit normals
 
 void addTo(std::int64_t& sum, float value) {
@@ -29,19 +28,18 @@ glm::vec3 CachePlace::raised(float least) const {
 
 void CachePlaceSums::add(std::size_t cache, glm::vec3 position, float cell, glm::vec3 p,
                          glm::vec3 normal) {
-    Sums& sums = m_sums[cache];
+    PlaceSums& sums = m_sums[cache];
     addTo(sums.surfaces, 1);
-    addTo(sums.x, normal.x * kUnit);
-    addTo(sums.y, normal.y * kUnit);
-    addTo(sums.z, normal.z * kUnit);
-    addTo(sums.height, glm::dot(position - p, normal) / cell * kUnit);
+    addTo(sums.x, normal.x * kPlaceUnit);
+    addTo(sums.y, normal.y * kPlaceUnit);
+    addTo(sums.z, normal.z * kPlaceUnit);
+    addTo(sums.height, glm::dot(position - p, normal) / cell * kPlaceUnit);
 }
 
-CachePlace CachePlaceSums::place(std::size_t cache, glm::vec3 position, float cell) const {
+CachePlace placeOf(const PlaceSums& sums, glm::vec3 position, float cell) {
     CachePlace place{.position = position};
-    const Sums& sums = m_sums[cache];
     if (sums.surfaces > 0) {
-        const double unit = 1 / (double(kUnit) * double(sums.surfaces));
+        const double unit = 1 / (double(kPlaceUnit) * double(sums.surfaces));
         place.normal = glm::vec3(glm::dvec3(sums.x, sums.y, sums.z) * unit);
         place.height = float(double(sums.height) * unit) * cell;
     }

@@ -22,6 +22,16 @@ struct CachePlace {
     bool operator==(const CachePlace&) const = default;
 };
 
+/// Sums over surfaces about a cache, in whole numbers: kPlaceUnit for a normal's unit and for a
+/// height of a cell.
+struct PlaceSums {
+    std::int64_t surfaces = 0, x = 0, y = 0, z = 0, height = 0;
+};
+inline constexpr float kPlaceUnit = 4096;
+
+/// The place of a cache at `position` of a grid whose cells have the side `cell` [m].
+CachePlace placeOf(const PlaceSums& sums, glm::vec3 position, float cell);
+
 /// Sums over the surfaces about each cache. Whole numbers are summed, so that the result does not
 /// depend on the order, and several threads may add at once.
 class CachePlaceSums {
@@ -31,13 +41,10 @@ public:
     /// Adds a surface through point `p` with unit `normal`. `position`, `cell`: place of the cache,
     /// and the side of its grid's cells [m].
     void add(std::size_t cache, glm::vec3 position, float cell, glm::vec3 p, glm::vec3 normal);
-    CachePlace place(std::size_t cache, glm::vec3 position, float cell) const;
+    const PlaceSums& of(std::size_t cache) const { return m_sums[cache]; }
 
 private:
-    struct Sums {
-        std::int64_t surfaces = 0, x = 0, y = 0, z = 0, height = 0;
-    };
-    std::vector<Sums> m_sums;
+    std::vector<PlaceSums> m_sums;
 };
 
 } // namespace limn

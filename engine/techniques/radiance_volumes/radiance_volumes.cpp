@@ -20,7 +20,7 @@ public:
 
     LightingReport update(const LightingInput& input, const Progress& progress) override {
         Stopwatch whole;
-        VolumeInputs now = m_sources.inputsOf(input);
+        VolumeInputs now = volumeInputsOf(input, m_sources.inputs());
         LightingReport report{.converged = true};
         report.skipped = m_inputs == now;
         VolumeCost cost;

@@ -24,28 +24,35 @@ auto cacheSettings(const VolumeSettings& s) {
 
 } // namespace
 
-VolumeInputs VolumeSources::inputsOf(const LightingInput& input) const {
+VolumeInputs volumeInputsOf(const LightingInput& input, const std::optional<VolumeInputs>& before) {
     VolumeInputs now{.surfaces = rsmSurfacesOf(input.scene),
                      .settings = volumeSettingsOf(input.scene.technique),
                      .sources = rsmSourcesOf(input.scene)};
     if (input.view)
         now.view = *input.view;
-    if (now.settings.freeze && m_before && m_before->view)
-        now.view = m_before->view;
+    if (now.settings.freeze && before && before->view)
+        now.view = before->view;
     return now;
+}
+
+VolumeChanges changesOf(const std::optional<VolumeInputs>& before, const VolumeInputs& now) {
+    if (!before || before->surfaces != now.surfaces)
+        return {};
+    return {.maps = mapSettings(before->settings) != mapSettings(now.settings),
+            .voxels = before->settings.voxels != now.settings.voxels,
+            .caches = before->view != now.view ||
+                      cacheSettings(before->settings) != cacheSettings(now.settings)};
 }
 
 bool VolumeSources::follow(const TraceScene& trace, const Scene& scene, const VolumeInputs& now,
                            const Progress& progress, VolumeSourceCost& cost) {
     Stopwatch clock;
-    const bool sameSurfaces = m_before && m_before->surfaces == now.surfaces;
-    if (!sameSurfaces || mapSettings(m_before->settings) != mapSettings(now.settings))
+    const VolumeChanges changes = changesOf(m_before, now);
+    if (changes.maps)
         m_lights.clear();
-    if (!sameSurfaces || m_before->settings.voxels != now.settings.voxels)
+    if (changes.voxels)
         m_voxels.reset();
-    if (!sameSurfaces || m_before->view != now.view ||
-        cacheSettings(m_before->settings) != cacheSettings(now.settings))
-        m_cachesCurrent = false;
+    m_cachesCurrent &= !changes.caches;
     m_before = now;
     if (!followLights(trace, scene, now, progress, cost))
         return false;

@@ -26,6 +26,15 @@ struct VolumeInputs {
     bool operator==(const VolumeInputs&) const = default;
 };
 
+/// The inputs of an update. With VolumeSettings::freeze, the view is that of the update `before`.
+VolumeInputs volumeInputsOf(const LightingInput& input, const std::optional<VolumeInputs>& before);
+
+/// What is out of date once inputs have changed.
+struct VolumeChanges {
+    bool maps = true, voxels = true, caches = true;
+};
+VolumeChanges changesOf(const std::optional<VolumeInputs>& before, const VolumeInputs& now);
+
 /// What following the inputs took.
 struct VolumeSourceCost {
     double mapMs = 0, voxelMs = 0, allocationMs = 0;
@@ -36,8 +45,8 @@ struct VolumeSourceCost {
 /// What lights caches and where they are, kept from one update to the next.
 class VolumeSources {
 public:
-    /// The inputs of an update. With VolumeSettings::freeze, the view is that of the update before.
-    VolumeInputs inputsOf(const LightingInput& input) const;
+    /// Those of the last follow().
+    const std::optional<VolumeInputs>& inputs() const { return m_before; }
 
     /// Brings area lights, voxels and places of caches up to date with `now`, the inputs of
     /// `scene`. Returns false if cancelled; what was finished by then is kept.

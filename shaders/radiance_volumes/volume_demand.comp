@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Asks for caches at the nodes about what each pixel of a camera's picture shows, and sums the surfaces there. As
+// allocateForView() of engine/techniques/radiance_volumes/allocation.cpp.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/gpu_volumes.h"
+#include "shaders/shared/surface_pack.glsl"
+
+layout(local_size_x = VOLUME_MAP_LANES, local_size_y = VOLUME_MAP_LANES) in;
+
+layout(push_constant) uniform Push { GpuVolumeDemand picture; };
+layout(binding = VOLUME_DEMAND_SURFACE) uniform usampler2D surfaceMap;
+layout(binding = VOLUME_DEMAND_DEPTH) uniform sampler2D depthMap;
+layout(std430, binding = VOLUME_DEMAND_GRIDS) readonly buffer Grids { GpuCacheGrids volume; };
+layout(std430, binding = VOLUME_DEMAND_SUMS) buffer Sums { GpuPlaceSums sums[]; };
+
+#include "shaders/shared/volume_grids.glsl"
+
+/// The cells of a pixel in up to two grids.
+struct PixelCells {
+    uint count;
+    uint grid[2];
+    uvec3 cell[2];
+};
+
+PixelCells cellsOf(vec3 p) {
+    const GridShares shares = gridShares(p);
+    PixelCells cells;
+    cells.count = 0u;
+    for (uint k = 0u; k < 2u; ++k)
+        if ((k == 0u ? shares.weight : 1.0 - shares.weight) > 0.0) {
+            cells.grid[cells.count] = shares.grid + k;
+            cells.cell[cells.count++] = cellAt(shares.grid + k, p);
+        }
+    return cells;
+}
+
+bool placeAt(uvec2 pixel, out vec3 p) {
+    const float depth = texelFetch(depthMap, ivec2(pixel), 0).r;
+    const vec2 ndc = 2.0 * (vec2(pixel) + 0.5) / vec2(picture.width, picture.height) - 1.0;
+    const vec3 ray = picture.rayCentre + ndc.x * picture.rayRight - ndc.y * picture.rayUp;
+    p = picture.eye + ray * (picture.depthScale / (depth - picture.depthOffset));
+    return depth > 0.0;
+}
+
+void add(uint g, uvec3 node, vec3 p, vec3 normal) {
+    const uint i = nodeIndex(g, node);
+    const ivec3 n = ivec3(round(normal * VOLUME_PLACE_UNIT));
+    const float height = dot(nodePlace(g, node) - p, normal) / volume.grid[g].cell;
+    atomicAdd(sums[i].surfaces, 1);
+    atomicAdd(sums[i].x, n.x);
+    atomicAdd(sums[i].y, n.y);
+    atomicAdd(sums[i].z, n.z);
+    atomicAdd(sums[i].height, int(round(height * VOLUME_PLACE_UNIT)));
+}
+
+void main() {
+    const uvec2 pixel = gl_GlobalInvocationID.xy;
+    vec3 p, left;
+    if (any(greaterThanEqual(pixel, uvec2(picture.width, picture.height))) || !placeAt(pixel, p))
+        return;
+    const PixelCells cells = cellsOf(p);
+    PixelCells before;
+    before.count = 0u;
+    if (pixel.x > 0u && placeAt(pixel - uvec2(1, 0), left))
+        before = cellsOf(left);
+    const vec3 normal = octDecode(unpackSnorm2x16(texelFetch(surfaceMap, ivec2(pixel), 0).w));
+    for (uint k = 0u; k < cells.count; ++k) {
+        bool counted = false; // by the pixel to the left
+        for (uint j = 0u; j < before.count; ++j)
+            counted = counted || (before.grid[j] == cells.grid[k] && before.cell[j] == cells.cell[k]);
+        for (uint corner = 0u; corner < 8u && !counted; ++corner)
+            add(cells.grid[k], cellCorner(cells.cell[k], corner), p, normal);
+    }
+}
