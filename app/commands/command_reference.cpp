@@ -59,7 +59,7 @@ Exit runReference(ReferenceCommand& o) {
         !writable)
         return failed(writable.error().message);
     if (o.lightTracing && !canBeLightTraced(viewOf(o.view)))
-        return failed("--light-tracing shows --view irradiance or indirect only");
+        return failed("--light-tracing shows --view lit, irradiance or indirect");
     const ThreadLimit limit(o.threads);
     const Result<ImportedScene> imported = openScene(o.scene);
     if (!imported)

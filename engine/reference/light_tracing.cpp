@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -109,13 +111,18 @@ struct LightTracer {
 
 } // namespace
 
-bool canBeLightTraced(View view) {
-    return view == View::Irradiance || view == View::Indirect;
+/// The parts of a job that run one after the other, each with its share of the progress.
+static Progress partOf(const Progress& whole, float begin, float end) {
+    Progress part;
+    part.cancel = whole.cancel;
+    part.report = [&whole, begin, end](const char* stage, float f) {
+        whole.at(stage, begin + f * (end - begin));
+    };
+    return part;
 }
 
-ReferenceResult renderLightTraced(const TraceScene& trace, const ReferenceOptions& options,
-                                  const Progress& progress) {
-    assert(options.width > 0 && options.height > 0 && canBeLightTraced(options.view));
+static ReferenceResult tracePhotons(const TraceScene& trace, const ReferenceOptions& options,
+                                    const Progress& progress) {
     const LightTracer tracer{trace, options, findLightSources(trace),
                              Sensor(options.camera, options.width, options.height),
                              options.camera.eye};
@@ -127,11 +134,8 @@ ReferenceResult renderLightTraced(const TraceScene& trace, const ReferenceOption
     std::uint64_t done = 0;
     while (done < photons && !tracer.sources.empty()) {
         const std::uint64_t count = std::min<std::uint64_t>(kRound, photons - done);
-        Progress part;
-        part.cancel = progress.cancel;
-        part.report = [&](const char* stage, float f) {
-            progress.at(stage, (float(done) + f * float(count)) / float(photons));
-        };
+        const Progress part =
+            partOf(progress, float(done) / float(photons), float(done + count) / float(photons));
         const bool complete = parallelRanges(
             count, kBlock, part, "photons", [&](std::size_t first, std::size_t last) {
                 std::uint64_t traced = 0;
@@ -160,6 +164,36 @@ ReferenceResult renderLightTraced(const TraceScene& trace, const ReferenceOption
     }
     result.noise = noise.relative(pixels, done);
     return result;
+}
+
+bool canBeLightTraced(View view) {
+    return view == View::Lit || view == View::Irradiance || view == View::Indirect;
+}
+
+ReferenceResult renderLightTraced(const TraceScene& trace, const ReferenceOptions& options,
+                                  const Progress& progress) {
+    assert(options.width > 0 && options.height > 0 && canBeLightTraced(options.view));
+    if (options.view != View::Lit)
+        return tracePhotons(trace, options, progress);
+    ReferenceOptions seen = options, bounced = options;
+    seen.showsDiffuseBounces = false;
+    bounced.view = View::Indirect;
+    ReferenceResult sum = renderReference(trace, seen, partOf(progress, 0, 0.5f));
+    const ReferenceResult added = tracePhotons(trace, bounced, partOf(progress, 0.5f, 1));
+    double before = 0, whole = 0, brought = 0; // sums of light, in which the noises are relative
+    for (std::size_t i = 0; i < sum.image.rgb.size(); ++i) {
+        before += double(channelSum(sum.image.rgb[i]));
+        brought += double(channelSum(added.image.rgb[i]));
+        sum.image.rgb[i] += added.image.rgb[i];
+        whole += double(channelSum(sum.image.rgb[i]));
+    }
+    sum.samplesPerPixel = std::min(sum.samplesPerPixel, added.samplesPerPixel);
+    if (sum.samplesPerPixel < 2)
+        sum.noise = std::numeric_limits<double>::infinity();
+    else if (whole > 0)
+        sum.noise = std::hypot(sum.noise * before, added.noise * brought) / whole;
+    sum.rays += added.rays;
+    return sum;
 }
 
 } // namespace limn

@@ -5,7 +5,7 @@
 
 namespace limn {
 
-/// Whether renderLightTraced() can show the view: Irradiance and Indirect.
+/// Whether renderLightTraced() can show the view: Lit, Irradiance and Indirect.
 bool canBeLightTraced(View view);
 
 /// Ground truth with caustics: follows photons from all sources of light by tracePhoton() and
@@ -13,9 +13,9 @@ bool canBeLightTraced(View view);
 /// led to a diffuse surface, which paths from the eye do not find. The views are those of
 /// renderReference() and agree with it where nothing is metallic or transmissive;
 /// ReferenceOptions::maxBounces counts diffuse reflections only, and 0 leaves the caustics of
-/// lights. Emits samplesPerPixel photons a pixel; noise and sampling by halves are those of
-/// renderReference(). What the eye sees in mirrors and through glass is not shown: their own
-/// irradiance is.
+/// lights. In Lit, the photons light the surfaces that the eye sees itself; what it sees in mirrors
+/// and through glass is that of renderReference(). Emits samplesPerPixel photons a pixel; noise and
+/// sampling by halves are those of renderReference().
 /// Arvo. Backward Ray Tracing. 1986; Dutré, Lafortune, Willems. Monte Carlo Light Tracing with
 /// Direct Computation of Pixel Intensities. 1993
 /// The result is identical for any number of threads. A cancelled call returns the photons so far,

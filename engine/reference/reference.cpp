@@ -28,18 +28,21 @@ constexpr std::uint32_t kPassingSeed = 0x70617373; ///< separates the numbers of
 
 /// Radiance that a surface, met by `ray`, sends to the eye.
 glm::vec3 sampleRadiance(const PathContext& c, const Hit& hit, const Ray& ray,
-                         const SurfacePoint& p, const Sampler& sampler, std::uint64_t& rays) {
+                         const SurfacePoint& p, bool diffuseBounces, const Sampler& sampler,
+                         std::uint64_t& rays) {
     const DirectSample direct =
         sampleDirectLight(c.trace, p, sampler.pair(1).x, sampler.pair(kOnLightDimension), rays);
-    const glm::vec3 indirect =
-        p.albedo / glm::pi<float>() * sampleIndirectIrradiance(c, p, sampler, rays);
+    glm::vec3 indirect(0);
+    if (diffuseBounces)
+        indirect = p.albedo / glm::pi<float>() * sampleIndirectIrradiance(c, p, sampler, rays);
     const GlossyPoint g = glossyPoint(c.trace, hit, ray, p);
     const glm::vec3 glossy = sampleReflectedRadiance(c, g, sampler, rays);
     return p.emission + g.reflect(direct.irradiance, direct.toLight) + indirect + glossy;
 }
 
 /// Radiance that reaches the eye along a ray, and through transmissive surfaces.
-glm::vec3 sampleSight(const PathContext& c, Ray ray, const Sampler& sampler, std::uint64_t& rays) {
+glm::vec3 sampleSight(const PathContext& c, Ray ray, bool diffuseBounces, const Sampler& sampler,
+                      std::uint64_t& rays) {
     const Sampler passing{mixBits(sampler.seed, kPassingSeed), sampler.index};
     glm::vec3 L(0), weight(1);
     for (std::uint32_t crossing = 0; crossing <= kMaxCrossings; ++crossing) {
@@ -49,7 +52,8 @@ glm::vec3 sampleSight(const PathContext& c, Ray ray, const Sampler& sampler, std
             return L + weight * skyRadiance(c.trace.scene().sky, ray.direction);
         const std::optional<SurfacePoint> p = surfacePoint(c.trace, hit);
         if (p && !isWithinBody(c.trace.scene(), hit))
-            L += weight * sampleRadiance(c, hit, ray, *p, sampler, rays);
+            L += weight *
+                 sampleRadiance(c, hit, ray, *p, diffuseBounces || crossing > 0, sampler, rays);
         const PassedRay passed = passRay(c.trace, hit, ray, passing.pair(2 * crossing).x,
                                          passing.pair(2 * crossing + 1));
         if (passed.weight == glm::vec3(0))
@@ -60,10 +64,11 @@ glm::vec3 sampleSight(const PathContext& c, Ray ray, const Sampler& sampler, std
     return L;
 }
 
-glm::vec3 sampleView(const PathContext& c, View view, const Ray& ray, const Sampler& sampler,
-                     std::uint64_t& rays) {
+glm::vec3 sampleView(const PathContext& c, const ReferenceOptions& o, const Ray& ray,
+                     const Sampler& sampler, std::uint64_t& rays) {
+    const View view = o.view;
     if (view == View::Lit)
-        return sampleSight(c, ray, sampler, rays);
+        return sampleSight(c, ray, o.showsDiffuseBounces, sampler, rays);
     ++rays;
     const Hit hit = c.trace.closestHit(ray);
     const std::optional<SurfacePoint> p = hit ? surfacePoint(c.trace, hit) : std::nullopt;
@@ -89,7 +94,7 @@ void addSamples(const PathContext& c, const ReferenceOptions& o, const PixelRays
         const std::uint32_t half = s & 1;
         const Sampler sampler{mixBits(mixBits(o.seed, half), pixel), s >> 1};
         const Ray ray = pixelRays.through(corner + sampler.pair(0));
-        sum.half[half] += glm::dvec3(sampleView(c, o.view, ray, sampler, rays));
+        sum.half[half] += glm::dvec3(sampleView(c, o, ray, sampler, rays));
     }
 }
 

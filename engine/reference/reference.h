@@ -19,6 +19,9 @@ struct ReferenceOptions {
     std::uint32_t maxBounces =
         kMaxBounces; ///< path segments after the first surface; longer paths are cut
     std::uint32_t seed = 1;
+    /// In Lit: whether surfaces that the eye sees, but not through glass, show the bounced light
+    /// that they reflect diffusely.
+    bool showsDiffuseBounces = true;
 };
 
 struct ReferenceResult {

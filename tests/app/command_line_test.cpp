@@ -68,6 +68,8 @@ TEST_F(CommandLine, NamesTheSceneThatItCannotOpen) {
 TEST_F(CommandLine, RefusesAnOutputBeforeTheWork) {
     expectRefusal("reference cornell --spp 1000000 -o " + path("no/such/folder/x.exr"), "x.exr");
     expectRefusal("reference cornell --spp 1000000 -o " + path("x.png"), ".exr");
+    expectRefusal("reference cornell --light-tracing --view albedo -o " + path("x.exr"),
+                  "--light-tracing");
     expectRefusal("reference cornell --spp 1000000 -o " + path(""), "folder");
     expectRefusal("compare one.exr two.exr --heatmap " + path("no/such/folder/x.png"), "x.png");
 }

@@ -106,6 +106,20 @@ TEST(LightTracing, AgreesWithPathsForEmittersAndTheSky) {
     expectAgreement(sky, optionsFor(View::Indirect), "sky");
 }
 
+// The floor's shading normals lean towards the lamp, so that it receives more than falls on it.
+TEST(LightTracing, AgreesWithPathsWhereShadingNormalsLean) {
+    SceneBuilder b = room();
+    b.scene.materials[0].baseColor = {0.95f, 0.9f, 0.85f, 1};
+    for (glm::vec3& n : b.assets->meshes[0].normals)
+        n = glm::normalize(glm::vec3(-0.8f, 1, 0.2f));
+    b.scene.lights = {lamp(LightKind::Point)};
+    b.scene.lights[0].position = {-0.8f, 0, 0.3f};
+    ReferenceOptions o = optionsFor(View::Irradiance);
+    o.camera.target = {0, -0.6f, 0};
+    o.maxBounces = 2;
+    expectAgreement(b, o, "leaning normals");
+}
+
 TEST(LightTracing, CountsBouncesAsPathsDo) {
     for (const std::uint32_t bounces : {1U, 2U}) {
         SceneBuilder b = room();
@@ -171,6 +185,14 @@ TEST(LightTracing, NoBouncesLeaveTheCausticsOfLights) {
     const float cosine = std::sqrt(0.5f), away = std::pow(1 - cosine, 5.f);
     const double expected = double((0.8f + 0.2f * away) * 4 * cosine);
     EXPECT_NEAR(meanOf(renderLightTraced(trace, o).image) / expected, 1, 0.02);
+}
+
+// Emission, direct light and gloss as paths find them, and what photons bring.
+TEST(LightTracing, AgreesWithPathsInAWholePicture) {
+    SceneBuilder b = room();
+    b.scene.materials[0].emission = {0.1f, 0.2f, 0.3f};
+    b.scene.lights = {lamp(LightKind::Spot)};
+    expectAgreement(b, optionsFor(View::Lit), "lit");
 }
 
 TEST(LightTracing, ThreadsChangeNoByteAndAnotherSeedAll) {
