@@ -83,6 +83,23 @@ Reflected reflected(const Gloss& gloss, glm::vec3 toEye) {
 
 } // namespace
 
+// What a ball of clear glass does not mirror of an even sky it lets through, so that it vanishes
+// before it. Schlick's term stands for Fresnel's equations in what is mirrored, which is as much
+// where one looks straight at it.
+TEST(Glossy, ABallOfGlassVanishesBeforeAnEvenSky) {
+    SceneBuilder b;
+    Material glass;
+    glass.roughness = 0;
+    glass.transmission = 1;
+    glass.thickness = 1;
+    b.addMaterial(glass);
+    b.add(sphere(1, 4, false));
+    b.scene.sky.radiance = {1, 2, 3};
+    const TraceScene trace(b.build());
+    const glm::vec3 seen = meanColor(renderReference(trace, pointOptions({0, 0, 4}, {}, 64)).image);
+    EXPECT_LT(glm::length(seen - glm::vec3(1, 2, 3)), 0.01f);
+}
+
 // A room that glows evenly and sends nothing back: whoever looks straight at a metal wall sees its
 // own glow and the share of 1 that its lobe reflects.
 TEST(Glossy, AFurnaceIsReflectedWhole) {

@@ -170,7 +170,7 @@ std::optional<LitScene> greyScene(const Subject& subject) {
     for (Material& m : s.scene.materials) {
         lamps |= m.emission != glm::vec3(0);
         m.baseColor = glm::vec4(glm::vec3(0.5f), m.baseColor.w);
-        m.metallic = 0;
+        m.metallic = m.transmission = 0;
         m.emission = glm::vec3(0);
     }
     s.scene.sky = {};
