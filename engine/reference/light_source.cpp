@@ -81,11 +81,13 @@ double skyPower(const Scene& scene) {
     return radiance * glm::pi<double>() * glm::pi<double>() * diameter * diameter;
 }
 
-Emission fromLamp(const Light& light, const glm::vec2 place, glm::vec2 direction) {
+Emission fromLamp(const TraceScene& trace, const Light& light, glm::vec2 place,
+                  glm::vec2 direction) {
     Emission e;
     const float all = float(solidAngle(light));
     const float cosine = 1 - place.x * all / (2 * kPi);
     e.ray.origin = light.position;
+    e.ray.tNear = trace.epsilonAt(light.position); // a light on a wall is not in the wall's shadow
     e.ray.direction = directionAbout(light.direction, std::sqrt(std::max(1 - cosine * cosine, 0.f)),
                                      cosine, direction.x);
     e.power = glm::vec3(all); // times the intensity, see powerAt()
@@ -162,7 +164,7 @@ Emission fromLight(const TraceScene& trace, std::size_t index, glm::vec2 place,
     }
     case LightKind::Point:
     case LightKind::Spot:
-        e = fromLamp(light, place, direction);
+        e = fromLamp(trace, light, place, direction);
         e.lamp = std::int32_t(index);
         break;
     case LightKind::Rectangle:

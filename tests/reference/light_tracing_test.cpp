@@ -90,6 +90,8 @@ TEST(LightTracing, AgreesWithPathsForEveryKindOfLight) {
         b.scene.lights = {lamp(kind)};
         if (kind == LightKind::Point)
             b.scene.lights[0].range = 1.6f;
+        if (kind == LightKind::Spot)
+            b.scene.lights[0].position = {-1, 0.6f, 0.3f}; // in the plane of a wall
         expectAgreement(b, optionsFor(View::Irradiance), kKinds[std::size_t(kind)]);
     }
 }
