@@ -1,23 +1,37 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lattice/cell_lobes.h"
 
+#include <algorithm>
+#include <numeric>
+
 namespace limn {
 
-std::vector<CellLobe> sumByCell(std::span<const LobeSample> samples, std::size_t cells) {
-    std::vector<std::uint32_t> begin(cells + 1, 0);
+/// The samples' numbers in the order of their cells, those of a cell in their own order.
+static std::vector<std::uint32_t> orderByCell(std::span<const LobeSample> samples,
+                                              std::size_t cells) {
+    std::vector<std::uint32_t> order(samples.size());
+    if (samples.size() * 16 < cells) { // counting would take longer than sorting
+        std::iota(order.begin(), order.end(), 0U);
+        std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return samples[i].cell; });
+        return order;
+    }
+    std::vector<std::uint32_t> next(cells + 1, 0);
     for (const LobeSample& sample : samples)
-        ++begin[sample.cell + 1];
+        ++next[sample.cell + 1];
     for (std::size_t c = 0; c < cells; ++c)
-        begin[c + 1] += begin[c];
-    std::vector<std::uint32_t> order(samples.size()), next(begin.begin(), begin.end() - 1);
+        next[c + 1] += next[c];
     for (std::uint32_t i = 0; i < samples.size(); ++i)
         order[next[samples[i].cell]++] = i;
+    return order;
+}
+
+std::vector<CellLobe> sumByCell(std::span<const LobeSample> samples, std::size_t cells) {
+    const std::vector<std::uint32_t> order = orderByCell(samples, cells);
     std::vector<CellLobe> sums;
-    for (std::uint32_t c = 0; c < cells; ++c) {
-        if (begin[c] == begin[c + 1])
-            continue;
+    for (std::size_t k = 0; k < order.size();) {
+        const std::uint32_t c = samples[order[k]].cell;
         std::array<glm::dvec3, 4> sum{};
-        for (std::uint32_t k = begin[c]; k < begin[c + 1]; ++k) {
+        for (; k < order.size() && samples[order[k]].cell == c; ++k) {
             const LobeSample& s = samples[order[k]];
             const glm::dvec3 weight(s.weight), slope = weight * double(kCosineSlope);
             sum[0] += weight * double(kCosineMean);

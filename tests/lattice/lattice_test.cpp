@@ -92,6 +92,13 @@ TEST(CellLobes, AreSummedByCellInTheOrderOfCells) {
         EXPECT_NEAR(sums[k].lobe[3].x, slope.x * std::sqrt(std::numbers::pi / 3), 1e-6 * weight.x);
     }
     EXPECT_TRUE(sumByCell({}, 20).empty());
+    // Few samples in many cells are sorted instead, with the same bits.
+    const auto sorted = sumByCell(samples, 1 << 20);
+    ASSERT_EQ(sorted.size(), sums.size());
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        EXPECT_EQ(sorted[k].cell, sums[k].cell);
+        EXPECT_EQ(sorted[k].lobe, sums[k].lobe);
+    }
 }
 
 } // namespace

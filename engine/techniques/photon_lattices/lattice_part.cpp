@@ -70,6 +70,21 @@ void addTaps(const PhotonLatticePart& part, const FieldPoint& point, float scale
             taps.push_back({4 * near[k].entry + i, near[k].weight * factor * y[i]});
 }
 
+/// 1 for each cell that holds light or touches one that does.
+std::vector<std::uint8_t> cellsAround(const Lattice& lattice, std::span<const CellLobe> light) {
+    std::vector<std::uint8_t> near(lattice.cells());
+    const glm::ivec3 last(lattice.size - 1U);
+    for (const CellLobe& cell : light) {
+        const glm::ivec3 middle(lattice.place(cell.cell));
+        const glm::ivec3 lower = glm::max(middle - 1, 0), upper = glm::min(middle + 1, last);
+        for (int z = lower.z; z <= upper.z; ++z)
+            for (int y = lower.y; y <= upper.y; ++y)
+                for (int x = lower.x; x <= upper.x; ++x)
+                    near[lattice.index(glm::uvec3(x, y, z))] = 1;
+    }
+    return near;
+}
+
 /// Adds a cell's light and area, times a weight.
 void addCell(const PhotonCell& cell, float weight, PhotonCell& sum) {
     for (std::size_t i = 0; i < 4; ++i) {
@@ -85,18 +100,8 @@ LitCells litCells(const Lattice& lattice, std::span<const CellLobe> light,
     LitCells lit{.lattice = lattice, .entryOf = {}, .cellOf = {}, .cells = {}};
     if (light.empty())
         return lit;
-    const bool around = kept == CellsKept::Around;
-    std::vector<std::uint8_t> wanted(lattice.cells(), kept == CellsKept::All ? 1 : 0);
-    const glm::ivec3 last(lattice.size - 1U);
-    for (const CellLobe& cell : light) {
-        const glm::ivec3 middle(lattice.place(cell.cell));
-        const glm::ivec3 lower = around ? glm::max(middle - 1, 0) : middle,
-                         upper = around ? glm::min(middle + 1, last) : middle;
-        for (int z = lower.z; z <= upper.z; ++z)
-            for (int y = lower.y; y <= upper.y; ++y)
-                for (int x = lower.x; x <= upper.x; ++x)
-                    wanted[lattice.index(glm::uvec3(x, y, z))] = 1;
-    }
+    const std::vector<std::uint8_t> near =
+        kept == CellsKept::Around ? cellsAround(lattice, light) : std::vector<std::uint8_t>();
     lit.entryOf.assign(lattice.cells(), kNoEntry);
     const auto entry = [&](std::uint32_t cell) -> PhotonCell& {
         if (lit.entryOf[cell] == kNoEntry) {
@@ -110,9 +115,11 @@ LitCells litCells(const Lattice& lattice, std::span<const CellLobe> light,
     for (const CellArea& cell : areas) {
         for (; next < light.size() && light[next].cell < cell.cell; ++next)
             entry(light[next].cell).light = light[next].lobe;
-        if (wanted[cell.cell] > 0)
-            entry(cell.cell).area = cell.harmonics;
-        if (next < light.size() && light[next].cell == cell.cell)
+        const bool isLit = next < light.size() && light[next].cell == cell.cell;
+        if (!isLit && (kept == CellsKept::Lit || (!near.empty() && near[cell.cell] == 0)))
+            continue;
+        entry(cell.cell).area = cell.harmonics;
+        if (isLit)
             entry(cell.cell).light = light[next++].lobe;
     }
     for (; next < light.size(); ++next)
