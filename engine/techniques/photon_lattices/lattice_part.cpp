@@ -27,7 +27,7 @@ std::size_t nearCells(const LitCells& cells, glm::vec3 p, bool trilinear,
                       std::array<Near, 8>& near) {
     const Lattice& lattice = cells.lattice;
     if (!trilinear) {
-        near[0] = {cells.entryOf[lattice.index(lattice.at(p))], 1};
+        near[0] = {cells.entryAt(lattice.index(lattice.at(p))), 1};
         return near[0].entry == kNoEntry ? 0 : 1;
     }
     const glm::vec3 last(glm::vec3(lattice.size) - 1.f);
@@ -41,7 +41,7 @@ std::size_t nearCells(const LitCells& cells, glm::vec3 p, bool trilinear,
         for (int axis = 0; axis < 3; ++axis)
             weight *= step[axis] == 1 ? t[axis] : 1 - t[axis];
         const std::uint32_t entry =
-            cells.entryOf[lattice.index(glm::min(lower + step, lattice.size - 1U))];
+            cells.entryAt(lattice.index(glm::min(lower + step, lattice.size - 1U)));
         if (weight > 0 && entry != kNoEntry)
             near[count++] = {entry, weight};
     }
@@ -95,6 +95,13 @@ void addCell(const PhotonCell& cell, float weight, PhotonCell& sum) {
 
 } // namespace
 
+std::uint32_t LitCells::entryAt(std::uint32_t cell) const {
+    if (!entryOf.empty())
+        return entryOf[cell];
+    const auto it = std::ranges::lower_bound(cellOf, cell);
+    return it != cellOf.end() && *it == cell ? std::uint32_t(it - cellOf.begin()) : kNoEntry;
+}
+
 LitCells litCells(const Lattice& lattice, std::span<const CellLobe> light,
                   std::span<const CellArea> areas, CellsKept kept) {
     LitCells lit{.lattice = lattice, .entryOf = {}, .cellOf = {}, .cells = {}};
@@ -102,14 +109,12 @@ LitCells litCells(const Lattice& lattice, std::span<const CellLobe> light,
         return lit;
     const std::vector<std::uint8_t> near =
         kept == CellsKept::Around ? cellsAround(lattice, light) : std::vector<std::uint8_t>();
-    lit.entryOf.assign(lattice.cells(), kNoEntry);
-    const auto entry = [&](std::uint32_t cell) -> PhotonCell& {
-        if (lit.entryOf[cell] == kNoEntry) {
-            lit.entryOf[cell] = std::uint32_t(lit.cells.size());
+    const auto entry = [&](std::uint32_t cell) -> PhotonCell& { // cells come in their order
+        if (lit.cellOf.empty() || lit.cellOf.back() != cell) {
             lit.cellOf.push_back(cell);
             lit.cells.emplace_back();
         }
-        return lit.cells[lit.entryOf[cell]];
+        return lit.cells.back();
     };
     std::size_t next = 0;
     for (const CellArea& cell : areas) {
@@ -124,6 +129,11 @@ LitCells litCells(const Lattice& lattice, std::span<const CellLobe> light,
     }
     for (; next < light.size(); ++next)
         entry(light[next].cell).light = light[next].lobe;
+    if (kept == CellsKept::All) {
+        lit.entryOf.assign(lattice.cells(), kNoEntry);
+        for (std::uint32_t e = 0; e < lit.cellOf.size(); ++e)
+            lit.entryOf[lit.cellOf[e]] = e;
+    }
     return lit;
 }
 
@@ -172,7 +182,7 @@ LitCells blurred(const LitCells& cells, PhotonBlur blur) {
                 const glm::ivec3 p = glm::ivec3(lattice.place(std::uint32_t(c))) + w.offset;
                 if (glm::clamp(p, glm::ivec3(0), glm::ivec3(lattice.size) - 1) != p)
                     continue;
-                const std::uint32_t entry = cells.entryOf[lattice.index(glm::uvec3(p))];
+                const std::uint32_t entry = cells.entryAt(lattice.index(glm::uvec3(p)));
                 if (entry != kNoEntry)
                     addCell(cells.cells[entry], w.weight, all.cells[c]);
             }

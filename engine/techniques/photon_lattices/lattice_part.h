@@ -30,10 +30,12 @@ inline constexpr std::uint32_t kNoEntry = ~0U;
 /// A lattice with the cells that a lookup needs.
 struct LitCells {
     Lattice lattice;
-    std::vector<std::uint32_t> entryOf; ///< per cell of the lattice: its entry, or kNoEntry
-    std::vector<std::uint32_t> cellOf;  ///< per entry: its cell, ascending
-    std::vector<PhotonCell> cells;      ///< per entry
+    /// Per cell of the lattice its entry, or kNoEntry; empty: entries are searched for in cellOf.
+    std::vector<std::uint32_t> entryOf;
+    std::vector<std::uint32_t> cellOf; ///< per entry: its cell, ascending
+    std::vector<PhotonCell> cells;     ///< per entry
 
+    std::uint32_t entryAt(std::uint32_t cell) const;
     std::uint64_t bytes() const {
         return (entryOf.size() + cellOf.size()) * sizeof(std::uint32_t) +
                cells.size() * sizeof(PhotonCell);

@@ -48,8 +48,10 @@ void addLattice(const PhotonLatticePart& part, std::size_t k, PhotonData& data) 
                                std::uint32_t(data.entries.size())};
     if (dark)
         data.entries.push_back(PHOTON_NO_ENTRY);
-    for (const std::uint32_t entry : lit.entryOf)
-        data.entries.push_back(entry == kNoEntry ? PHOTON_NO_ENTRY : firstCell + entry);
+    else
+        data.entries.resize(data.entries.size() + lit.lattice.cells(), PHOTON_NO_ENTRY);
+    for (std::uint32_t e = 0; e < lit.cellOf.size(); ++e)
+        data.entries[data.photons.lattice[k].first + lit.cellOf[e]] = firstCell + e;
     for (const PhotonCell& cell : lit.cells) {
         GpuPhotonCell& packed = data.cells.emplace_back();
         for (std::size_t i = 0; i < 4; ++i)
