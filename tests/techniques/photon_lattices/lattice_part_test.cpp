@@ -147,6 +147,38 @@ TEST(PhotonLattice, PutsASurfaceInAFaceIntoTheCellThatItFaces) {
     EXPECT_EQ(cells[0].cell, 2U);
 }
 
+// Seven photons within a cell and its neighbours are few; eight are not. Caustics do not count.
+TEST(PhotonLattice, LeavesFewPhotonsToTheCoarseLattice) {
+    const Lattice mid{.lower = glm::vec3(0), .cell = 1, .size = glm::uvec3(8)};
+    PhotonMap map;
+    map.vertices = {{.event = PhotonEvent::Diffuse},
+                    {.event = PhotonEvent::Transmitted, .narrow = true}};
+    const auto add = [&](glm::vec3 p, std::uint32_t vertex) {
+        map.photons.push_back(
+            {.power = glm::vec3(1), .position = p, .normal = kUp, .vertex = vertex});
+    };
+    for (int i = 0; i < 7; ++i)
+        add({1.5f + float(i % 2), 0.5f, 1.5f}, 0);
+    add({1.5f, 0.5f, 1.5f}, 1);
+    const auto placesOf = [&](PhotonSplats splats) {
+        return choosePlaces(map, mid, {.splats = splats, .few = 8});
+    };
+    const auto placed = [](PhotonLattice lattice) { return std::uint8_t(lattice); };
+    std::vector<std::uint8_t> places = placesOf(PhotonSplats::None);
+    EXPECT_EQ(places[0], placed(PhotonLattice::Low));
+    EXPECT_EQ(places[7], placed(PhotonLattice::High));
+    add({4.5f, 0.5f, 1.5f}, 0); // two cells away from some of the others, one from none
+    places = placesOf(PhotonSplats::None);
+    EXPECT_EQ(places[0], placed(PhotonLattice::Low));
+    add({3.5f, 0.5f, 1.5f}, 0); // one away from those in the second cell
+    places = placesOf(PhotonSplats::Caustics);
+    EXPECT_EQ(places[0], placed(PhotonLattice::Low));
+    EXPECT_EQ(places[1], placed(PhotonLattice::Mid));
+    EXPECT_EQ(places[7], kSplatted);
+    for (const std::uint8_t place : placesOf(PhotonSplats::All))
+        EXPECT_EQ(place, kSplatted);
+}
+
 /// Light and surface in each cell of a floor of 6 x 6 cells, all alike but for noise of the light.
 LitCells floorCells(float noise) {
     const Lattice lattice{.lower = glm::vec3(0), .cell = 0.5f, .size = {6, 3, 6}};
@@ -181,10 +213,16 @@ TEST(PhotonBlur, LeavesEvenLightAndSmoothesTheRest) {
     for (const PhotonBlur blur :
          {PhotonBlur::None, PhotonBlur::SixNeighbours, PhotonBlur::Weighted3, PhotonBlur::Uniform3,
           PhotonBlur::Weighted5, PhotonBlur::Uniform5}) {
-        float sum = 0;
-        for (const WeightedCell& cell : blurWeights(blur))
+        float sum = 0, middle = 0;
+        for (const WeightedCell& cell : blurWeights(blur)) {
             sum += cell.weight;
+            middle += cell.offset == glm::ivec3(0) ? cell.weight : 0;
+        }
         EXPECT_NEAR(sum, 1, 1e-5);
+        // Of binomial weights, 2 of 4 and 6 of 16 along each axis.
+        constexpr std::array<float, 6> kMiddle = {1,        1 / 7.f,      1 / 8.f,
+                                                  1 / 27.f, 216 / 4096.f, 1 / 125.f};
+        EXPECT_NEAR(middle, kMiddle[std::size_t(blur)], 1e-6);
         for (const bool trilinear : {false, true}) {
             const PhotonLatticePart even(blurred(floorCells(0), blur), false, trilinear);
             for (const float x : {0.1f, 0.9f, 1.6f, 2.95f})
