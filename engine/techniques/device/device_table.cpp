@@ -3,6 +3,7 @@
 
 #include "engine/techniques/illuminance/gpu/device_illuminance.h"
 #include "engine/techniques/illuminance/illuminance.h"
+#include "engine/techniques/light_skin/gpu/device_skin.h"
 #include "engine/techniques/light_skin/gpu/skin_pass.h"
 #include "engine/techniques/light_skin/light_skin.h"
 #include "engine/techniques/lpv/gpu/device_lpv.h"
@@ -35,7 +36,7 @@ struct Row {
 };
 
 constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevice},
-                              Row{&kLightSkinTechnique, nullptr, uploadSkinPart},
+                              Row{&kLightSkinTechnique, lightSkinOnDevice, uploadSkinPart},
                               Row{&kLpvTechnique, lightLpvOnDevice},
                               Row{&kProbesTechnique, lightProbesOnDevice, uploadMarchedPart},
                               Row{&kSparseProbesTechnique, lightSparseOnDevice},

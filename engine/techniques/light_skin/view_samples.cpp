@@ -14,10 +14,9 @@ namespace limn {
 
 ViewSamples samplesOfView(const TraceScene& trace, const Scene& scene, const Viewpoint& view,
                           std::uint32_t count) {
-    constexpr float kWithoutSize = 1024; // rows of a view of no picture
     glm::vec2 size(view.size);
     if (view.size.x == 0 || view.size.y == 0)
-        size = {kWithoutSize * view.aspect, kWithoutSize};
+        size = {kRowsWithoutSize * view.aspect, kRowsWithoutSize};
     PixelRays rays(view.camera, 1, 1);
     rays.size = size;
     rays.centre = rayDirection(view.camera, view.aspect, 0, 0);

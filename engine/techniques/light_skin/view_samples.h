@@ -19,6 +19,9 @@ struct ViewSamples {
     std::size_t size() const { return position.size(); }
 };
 
+/// Rows of pixels of a view of no picture.
+inline constexpr float kRowsWithoutSize = 1024;
+
 /// What a view shows at `count` of its pixels, the first points of the Halton sequence in bases 2
 /// and 3; fewer where it shows no surface. Ritschel, Eisemann, Ha, Kim, Seidel. Making Imperfect
 /// Shadow Maps View-Adaptive. 2011

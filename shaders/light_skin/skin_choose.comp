@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Chooses virtual lights by their importance and by their flux, as chooseLights() of
+// engine/techniques/light_skin/importance.cpp, or copies a batch of all of them.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/compute_groups.glsl"
+#include "shaders/shared/gpu_skin_steps.h"
+#include "shaders/shared/surface_pack.glsl"
+#include "shaders/shared/halton.glsl"
+
+layout(push_constant) uniform Push { GpuSkinStep step; };
+layout(std430, binding = SKIN_STEP_TEXELS) readonly buffer Texels { GpuVirtualLight texels[]; };
+layout(std430, binding = SKIN_STEP_IMPORTANCE) readonly buffer Importance { float importance[]; };
+layout(std430, binding = SKIN_STEP_SUMS) readonly buffer Sums { float sums[]; };
+layout(std430, binding = SKIN_STEP_CHOSEN) writeonly buffer Chosen { GpuChosenLight chosen[]; };
+
+/// Index in [first, first + count) of the first sum that exceeds `place`, or, where rounding leaves none, of the first
+/// that is as large as the last.
+uint firstAbove(uint first, uint count, float place) {
+    const float total = sums[first + count - 1u];
+    uint low = first, high = first + count - 1u;
+    while (low < high) {
+        const uint middle = (low + high) / 2u;
+        if (sums[middle] > place || sums[middle] >= total)
+            high = middle;
+        else
+            low = middle + 1u;
+    }
+    return low;
+}
+
+GpuChosenLight weighted(uint i, float weight) {
+    const GpuVirtualLight light = texels[i];
+    const vec3 normal = octDecode(unpackSnorm2x16(light.normal));
+    return GpuChosenLight(light.position, light.area, normal, light.area > 0.0 ? weight : 0.0, light.flux * weight, 0.0);
+}
+
+void main() {
+    const uint k = groupIndex() * kLanes + gl_LocalInvocationID.x;
+    if (k >= step.count)
+        return;
+    if (step.all == 1u) {
+        chosen[k] = weighted(step.first + k, 1.0);
+        return;
+    }
+    const uint all = step.columns * step.rows, ofColumns = 2u * all;
+    const vec2 total = vec2(sums[ofColumns + step.columns - 1u], sums[ofColumns + 2u * step.columns - 1u]);
+    uint byFlux = step.byFlux; // of the draws
+    if (!(total.x > 0.0) && byFlux > 0u)
+        byFlux = step.count; // nothing is important
+    if (!(total.y > 0.0) || (byFlux == 0u && !(total.x > 0.0))) {
+        chosen[k] = GpuChosenLight(vec3(0), 0.0, vec3(0), 0.0, vec3(0), 0.0);
+        return;
+    }
+    // Each kind of draw has a sequence of its own.
+    const bool flux = k >= step.count - byFlux;
+    const vec2 u = haltonPoint(flux ? k - (step.count - byFlux) : k);
+    const uint kind = flux ? 1u : 0u;
+    const uint first = ofColumns + kind * step.columns;
+    const uint column = firstAbove(first, step.columns, u.x * total[kind]) - first;
+    const uint top = kind * all + column * step.rows;
+    const uint i = firstAbove(top, step.rows, u.y * sums[top + step.rows - 1u]) - kind * all;
+    const float share = float(byFlux) / float(step.count);
+    float probability = share * dot(texels[i].flux, vec3(0.2126, 0.7152, 0.0722)) / total.y;
+    if (share < 1.0)
+        probability += (1.0 - share) * importance[i] / total.x;
+    chosen[k] = weighted(i, 1.0 / (float(step.count) * probability));
+}
