@@ -24,5 +24,7 @@ void main() {
     const vec2 ndc = 2.0 * (vec2(pixel) + 0.5) / vec2(view.size) - 1.0;
     const vec4 p = view.fromClip * vec4(ndc.x, -ndc.y, depth, 1.0);
     const bool found = depth > 0.0 && dot(normal, detail) > -0.99; // as surface.frag marks backs
-    samples[i] = GpuViewSample(found ? p.xyz / p.w : vec3(0), found ? 1.0 : 0.0, normal, 0.0);
+    const vec3 position = found ? p.xyz / p.w : vec3(0);
+    const bool away = dot(normal, position - view.eye) > 0.0; // maps know no eye
+    samples[i] = GpuViewSample(position, found ? 1.0 : 0.0, away ? -normal : normal, 0.0);
 }

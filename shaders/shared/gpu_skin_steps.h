@@ -62,7 +62,8 @@ struct GpuSkinMap {
 /// A picture in which samples are found.
 struct GpuSkinView {
     mat4 fromClip;
-    uvec2 size; uint samples; uint pad;
+    uvec2 size; uint samples; uint pad0;
+    vec3 eye; float pad1; // m
 };
 
 struct GpuSkinStep {
@@ -79,7 +80,7 @@ static_assert(sizeof(GpuViewSample) == 32);
 static_assert(sizeof(GpuChosenLight) == 48);
 static_assert(sizeof(GpuGatheringCache) == 32);
 static_assert(sizeof(GpuSkinMap) == 112);
-static_assert(sizeof(GpuSkinView) == 80);
+static_assert(sizeof(GpuSkinView) == 96);
 static_assert(sizeof(GpuSkinStep) == 64);
 } // namespace limn::shared
 #endif

@@ -145,7 +145,8 @@ void GpuSkinLights::findSamples(const Viewpoint& view, const Bounds& bounds, std
     m_sampleCount = count;
     const shared::GpuSkinView constants{.fromClip = glm::mat4(glm::inverse(glm::dmat4(map.toClip))),
                                         .size = size,
-                                        .samples = count};
+                                        .samples = count,
+                                        .eye = view.camera.eye};
     m_viewport.drawSurfaceMaps(
         {&map, 1}, size, [&](VkCommandBuffer cmd, const SurfaceMap& images, std::size_t) {
             writeRsmImages(m_device, m_set, images);

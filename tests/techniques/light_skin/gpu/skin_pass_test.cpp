@@ -4,6 +4,7 @@
 #include "engine/picture/field_lobe.h"
 #include "engine/shading/pixel_rays.h"
 #include "tests/render/viewport_fixture.h"
+#include "tests/techniques/light_skin/gpu/glossy_room.h"
 #include "tests/techniques/light_skin/lit_by_skin.h"
 
 #include <algorithm>
@@ -12,35 +13,6 @@
 
 namespace limn::skin_pass_test {
 namespace {
-
-/// A room with a ball, a mirrored and stretched box and a two-sided pane; all somewhat glossy.
-Scene glossyRoom() {
-    simple::SceneBuilder b;
-    Material m = simple::lambert({0.7f, 0.5f, 0.3f});
-    m.roughness = 0.35f;
-    b.addMaterial(m);
-    m.metallic = 1;
-    m.roughness = 0.5f;
-    b.addMaterial(m);
-    m = simple::lambert({0.2f, 0.6f, 0.9f});
-    m.doubleSided = true;
-    b.addMaterial(m);
-    b.add(simple::box(glm::vec3(0), {4, 3, 5}, true));
-    b.add(simple::sphere(0.6f, 3, false, 1), glm::translate(glm::mat4(1), glm::vec3(2.7f, 0.8f, 2)),
-          true);
-    b.add(simple::box({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}, false),
-          glm::translate(glm::mat4(1), glm::vec3(1.1f, 0, 1.2f)) *
-              glm::scale(glm::mat4(1), glm::vec3(-0.8f, 1.6f, 0.7f)));
-    b.add(simple::quad({0.4f, 0.6f, 2.7f}, {0.9f, 0, 0.4f}, {0, 1.2f, 0}, 2));
-    b.scene.lights = {{.kind = LightKind::Spot,
-                       .position = {2, 2.7f, 3},
-                       .direction = {0, -1, 0},
-                       .color = {1, 0.8f, 0.5f},
-                       .strength = 30,
-                       .outerAngle = 0.8f}};
-    b.scene.technique.settings = {{"light-skin.spacing", 4}, {"light-skin.map_size", 48}};
-    return b.build();
-}
 
 class SkinPassTest : public ViewportTest {
 protected:
