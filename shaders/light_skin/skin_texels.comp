@@ -29,5 +29,9 @@ void main() {
     if (readRsmTexel(map.view, texel, seen))
         light = GpuVirtualLight(seen.position, areaAcross(seen.position), seen.albedo * seen.incident,
                                 packSnorm2x16(octEncode(seen.normal)));
-    texels[(map.column + uint(texel.x)) * map.view.mapSize + uint(texel.y)] = light;
+    // In the order of castRsm(), whose rows run upwards, so that draws choose the same texels.
+    ivec2 place = ivec2(texel.x, int(map.view.mapSize) - 1 - texel.y);
+    if (map.turned == 1u)
+        place = place.yx;
+    texels[(map.column + uint(place.x)) * map.view.mapSize + uint(place.y)] = light;
 }

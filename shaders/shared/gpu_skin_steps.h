@@ -56,7 +56,7 @@ struct GpuGatheringCache {
 /// A view of a light's map.
 struct GpuSkinMap {
     GpuRsmView view;
-    uint column; uint pad0, pad1, pad2; // of the first column
+    uint column, turned; uint pad0, pad1; // first one; as DrawnRsmView::turned
 };
 
 /// A picture in which samples are found.

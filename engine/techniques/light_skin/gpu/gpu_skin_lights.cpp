@@ -41,7 +41,8 @@ void ensure(gpu::Device& device, gpu::Buffer& buffer, std::size_t count, std::si
     if (buffer.size < bytes)
         buffer = {device,
                   {.size = bytes,
-                   .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                   .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                            VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                    .name = name}};
 }
 
@@ -105,7 +106,7 @@ MappedLights GpuSkinLights::cast(const Light& light, const Bounds& bounds, std::
     if (views.empty())
         return {};
     const std::uint32_t side = views[0].view.size;
-    MappedLights mapped{.columns = std::uint32_t(views.size()) * side,
+    MappedLights mapped{.columns = (views.back().index + 1) * side,
                         .rows = side,
                         .views = std::uint32_t(views.size())};
     ensure(m_device, mapped.texels, mapped.count(), sizeof(shared::GpuVirtualLight),
@@ -119,9 +120,13 @@ MappedLights GpuSkinLights::cast(const Light& light, const Bounds& bounds, std::
                 writeRsmImages(m_device, m_set, map);
                 bindBuffers(&mapped);
                 m_mapBytes = map.bytes;
+                // Views that see nothing are not drawn.
+                vkCmdFillBuffer(cmd, mapped.texels.handle, 0, VK_WHOLE_SIZE, 0);
+                gpu::memoryBarrier(cmd, gpu::kTransferWrite, gpu::kComputeWrite);
             }
             const shared::GpuSkinMap constants{.view = views[k].shaders,
-                                               .column = std::uint32_t(k) * side};
+                                               .column = views[k].index * side,
+                                               .turned = views[k].turned ? 1U : 0U};
             vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, m_readTexels.handle);
             vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, m_layout.handle, 0, 1,
                                     &m_set, 0, nullptr);

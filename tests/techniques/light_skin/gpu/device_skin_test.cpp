@@ -108,7 +108,36 @@ TEST_F(DeviceSkinTest, GathersWhatTheCpuGathersOfAllTexels) {
     }
 }
 
-// Chosen texels are others than the CPU's, but stand for the same sum.
+// Rounding of sums may choose the texel beside one.
+TEST_F(DeviceSkinTest, ChoosesTheTexelsOfTheCpu) {
+    const Scene scene = glossyRoom(true);
+    show(scene);
+    const TraceScene trace(scene);
+    auto onDevice = std::move(*GpuSkinLights::create(*device, *viewport));
+    MeshSkins skins;
+    const LightCaches caches = skins.place(scene, {0.05f, 0.5f, false});
+    onDevice->setCaches(caches, {});
+    const ViewSamples samples = samplesOfSurfaces(scene, 100);
+    onDevice->setSamples(samples);
+    for (const LightKind kind : kLightKinds) {
+        Light lamp = limn::lightOf(kind);
+        lamp.position = {2.2f, 2.2f, 3.1f};
+        const Light unit = unitLight(lamp);
+        const VirtualLights lights = castVirtualLights(trace, scene, unit, 64);
+        const ChosenLights chosen =
+            chooseLights(lights, importances(lights, samples, 0.2f), {.count = 300});
+        std::vector<CacheSums> expected, found;
+        gatherLights(caches, {}, gatheringLights(lights, chosen), nullptr, expected);
+        const MappedLights mapped = onDevice->cast(unit, scene.bounds, 64);
+        ASSERT_TRUE(onDevice->gather(mapped, {.count = 300, .nearest = 0.2f}, found));
+        const Difference d = differenceOf(lightOf(found, false), lightOf(expected, false));
+        std::printf("light %d, chosen: largest difference %.2e, rms %.2e\n", int(kind), d.largest,
+                    d.rms);
+        EXPECT_LT(d.rms, 5e-3);
+    }
+}
+
+// Chosen texels stand for the sum of all.
 TEST_F(DeviceSkinTest, ChoosesTexelsThatStandForAll) {
     const Scene scene = glossyRoom();
     show(scene);
