@@ -35,11 +35,15 @@ PixelCells cellsOf(vec3 p) {
     return cells;
 }
 
-bool placeAt(uvec2 pixel, out vec3 p) {
+/// A pixel's surface. False where there is none.
+bool surfaceAt(uvec2 pixel, out vec3 p, out vec3 normal) {
     const float depth = texelFetch(depthMap, ivec2(pixel), 0).r;
     const vec2 ndc = 2.0 * (vec2(pixel) + 0.5) / vec2(picture.width, picture.height) - 1.0;
     const vec3 ray = picture.rayCentre + ndc.x * picture.rayRight - ndc.y * picture.rayUp;
     p = picture.eye + ray * (picture.depthScale / (depth - picture.depthOffset));
+    normal = octDecode(unpackSnorm2x16(texelFetch(surfaceMap, ivec2(pixel), 0).w));
+    if (dot(normal, ray) > 0.0) // maps are drawn without an eye to turn normals to
+        normal = -normal;
     return depth > 0.0;
 }
 
@@ -56,15 +60,14 @@ void add(uint g, uvec3 node, vec3 p, vec3 normal) {
 
 void main() {
     const uvec2 pixel = gl_GlobalInvocationID.xy;
-    vec3 p, left;
-    if (any(greaterThanEqual(pixel, uvec2(picture.width, picture.height))) || !placeAt(pixel, p))
+    vec3 p, normal, leftPlace, leftNormal;
+    if (any(greaterThanEqual(pixel, uvec2(picture.width, picture.height))) || !surfaceAt(pixel, p, normal))
         return;
-    const PixelCells cells = cellsOf(p);
+    const PixelCells cells = cellsOf(aboveSurface(p, normal));
     PixelCells before;
     before.count = 0u;
-    if (pixel.x > 0u && placeAt(pixel - uvec2(1, 0), left))
-        before = cellsOf(left);
-    const vec3 normal = octDecode(unpackSnorm2x16(texelFetch(surfaceMap, ivec2(pixel), 0).w));
+    if (pixel.x > 0u && surfaceAt(pixel - uvec2(1, 0), leftPlace, leftNormal))
+        before = cellsOf(aboveSurface(leftPlace, leftNormal));
     for (uint k = 0u; k < cells.count; ++k) {
         bool counted = false; // by the pixel to the left
         for (uint j = 0u; j < before.count; ++j)

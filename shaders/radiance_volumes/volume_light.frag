@@ -117,7 +117,8 @@ CacheSums readCaches(PackedSurface s, vec3 axis, float factors[8]) {
     if (volume.tile > 0u && kView == VIEW_LIT)
         texels = lookUpGlossy(s);
     CacheSums sums = CacheSums(vec3(0), vec3(0));
-    const GridShares shares = gridShares(s.position);
+    const vec3 p = aboveSurface(s.position, s.geometricNormal);
+    const GridShares shares = gridShares(p);
     float found = 0.0;
     uint next = 0u; // a grid that takes another's place is not asked twice
     for (uint k = 0u; k < 2u; ++k) {
@@ -126,7 +127,7 @@ CacheSums readCaches(PackedSurface s, vec3 axis, float factors[8]) {
             continue;
         for (uint g = max(shares.grid + k, next); g < volume.count; ++g) {
             next = g + 1u;
-            if (addCorners(g, s.position, share, irradiance, lobe, texels, sums)) {
+            if (addCorners(g, p, share, irradiance, lobe, texels, sums)) {
                 found += share;
                 break;
             }

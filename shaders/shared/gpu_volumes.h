@@ -25,7 +25,7 @@ using uint = std::uint32_t;
 #define VOLUME_MAP_LIGHTS 3u // GpuAreaLight
 #define VOLUME_MAP_BLOCKS 4u // GpuLightBlock
 #define VOLUME_MAP_BINDINGS 5u
-#define VOLUME_MAP_LANES 8u  // along each side of a workgroup
+#define VOLUME_MAP_LANES 8u // along each side of a workgroup
 
 // Bindings of set 0 of volume_demand.comp
 #define VOLUME_DEMAND_SURFACE 0u
@@ -38,7 +38,8 @@ using uint = std::uint32_t;
 #define VOLUME_CACHE_PLACES 0u // GpuCachePlace
 #define VOLUME_CACHE_LIGHTS 1u
 #define VOLUME_CACHE_BLOCKS 2u
-#define VOLUME_CACHE_VOXELS 3u // uint for each cell of each level: bytes along x, y, z, and distance or mean
+#define VOLUME_CACHE_VOXELS                                                                        \
+    3u // uint for each cell of each level: bytes along x, y, z, and distance or mean
 #define VOLUME_CACHE_HARMONICS 4u
 #define VOLUME_CACHE_BINDINGS 5u
 #define VOLUME_CACHE_LANES 32u

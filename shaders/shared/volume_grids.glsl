@@ -2,6 +2,11 @@
 // Which grids of caches light a point: engine/techniques/radiance_volumes/cache_grids.cpp. Needs the block `volume`
 // of a GpuCacheGrids.
 
+/// aboveSurface().
+vec3 aboveSurface(vec3 p, vec3 normal) {
+    return p + normal * (0.01 * volume.grid[0].cell);
+}
+
 /// limn::GridShares: the finest grid and its share; the next one has the rest.
 struct GridShares {
     uint grid;

@@ -14,6 +14,7 @@
 #include "engine/techniques/probes/gpu/device_probes.h"
 #include "engine/techniques/probes/gpu/marched_pass.h"
 #include "engine/techniques/probes/probes.h"
+#include "engine/techniques/radiance_volumes/gpu/device_volumes.h"
 #include "engine/techniques/radiance_volumes/gpu/volume_pass.h"
 #include "engine/techniques/radiance_volumes/radiance_volumes.h"
 #include "engine/techniques/sparse_probes/gpu/device_sparse.h"
@@ -35,13 +36,14 @@ struct Row {
     std::shared_ptr<LightPass> (*pass)(gpu::Device&, Viewport&, const IndirectField&) = nullptr;
 };
 
-constexpr std::array kRows = {Row{&kIlluminanceTechnique, lightIlluminanceOnDevice},
-                              Row{&kLightSkinTechnique, lightSkinOnDevice, uploadSkinPart},
-                              Row{&kLpvTechnique, lightLpvOnDevice},
-                              Row{&kProbesTechnique, lightProbesOnDevice, uploadMarchedPart},
-                              Row{&kSparseProbesTechnique, lightSparseOnDevice},
-                              Row{&kRadianceVolumesTechnique, nullptr, uploadVolumePart},
-                              Row{&kPhotonTechnique, lightPhotonsOnDevice, photonPass}};
+constexpr std::array kRows = {
+    Row{&kIlluminanceTechnique, lightIlluminanceOnDevice},
+    Row{&kLightSkinTechnique, lightSkinOnDevice, uploadSkinPart},
+    Row{&kLpvTechnique, lightLpvOnDevice},
+    Row{&kProbesTechnique, lightProbesOnDevice, uploadMarchedPart},
+    Row{&kSparseProbesTechnique, lightSparseOnDevice},
+    Row{&kRadianceVolumesTechnique, lightVolumesOnDevice, uploadVolumePart},
+    Row{&kPhotonTechnique, lightPhotonsOnDevice, photonPass}};
 
 } // namespace
 

@@ -58,10 +58,11 @@ void visitCells(const ViewHits& seen, const CacheGrids& grids, const Visit& visi
                 const Hit& hit = seen.hits[y * seen.size.x + x];
                 if (!hit)
                     continue;
-                const GridShares shares = gridShares(grids, hit.position);
+                const glm::vec3 p = aboveSurface(grids, hit.position, normalTowardsEye(hit));
+                const GridShares shares = gridShares(grids, p);
                 for (std::size_t k = 0; k < shares.count; ++k) {
                     const std::uint32_t g = shares.share[k].grid;
-                    here[g] = grids.grids[g].cellAt(hit.position);
+                    here[g] = grids.grids[g].cellAt(p);
                     if (here[g] != left[g])
                         visit(g, here[g], hit);
                 }
@@ -127,7 +128,11 @@ std::size_t countMissed(const CacheAllocation& made, std::span<const Hit> points
     parallelRanges(points.size(), 256, [&](std::size_t begin, std::size_t end) {
         std::size_t count = 0;
         for (std::size_t i = begin; i < end; ++i)
-            count += lookUpCaches(made.grids, made.address, points[i].position).count == 0 ? 1 : 0;
+            count += lookUpCaches(made.grids, made.address, points[i].position,
+                                  normalTowardsEye(points[i]))
+                                 .count == 0
+                         ? 1
+                         : 0;
         missed += count;
     });
     return missed;
@@ -141,7 +146,10 @@ std::vector<ShownPoint> someOf(std::span<const Hit> hits, const CacheGrids& grid
         const std::size_t begin = k * hits.size() / count, end = (k + 1) * hits.size() / count;
         const Hit& hit = hits[begin + mixBits(std::uint32_t(k)) % (end - begin)];
         points.push_back(
-            {hit.position, normalTowardsEye(hit), gridShares(grids, hit.position).share[0].grid});
+            {hit.position, normalTowardsEye(hit),
+             gridShares(grids, aboveSurface(grids, hit.position, normalTowardsEye(hit)))
+                 .share[0]
+                 .grid});
     }
     return points;
 }

@@ -140,4 +140,11 @@ CacheLookup lookUpCaches(const CacheGrids& grids, std::span<const std::uint32_t>
     return found;
 }
 
+CacheLookup lookUpCaches(const CacheGrids& grids, std::span<const std::uint32_t> address,
+                         glm::vec3 p, glm::vec3 normal) {
+    if (grids.grids.empty())
+        return {};
+    return lookUpCaches(grids, address, aboveSurface(grids, p, normal));
+}
+
 } // namespace limn

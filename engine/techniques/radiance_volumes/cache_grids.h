@@ -53,6 +53,13 @@ struct CacheGrids {
     std::size_t firstNode(std::size_t grid) const;
 };
 
+/// The point at which caches are asked for and looked up for a surface at `p` with unit `normal`: a
+/// hundredth of the finest cell above it. Walls often lie on nodes, where rounding would choose the
+/// cell. Precondition: there is a grid.
+inline glm::vec3 aboveSurface(const CacheGrids& grids, glm::vec3 p, glm::vec3 normal) {
+    return p + normal * (0.01f * grids.grids[0].cell);
+}
+
 /// Grids of `nodes` nodes a side about the eye, which is clamped to `bounds`; each has half the
 /// edge of the next, and the last twice the longest side of `bounds`, so that it holds all of it.
 /// Nodes stay where they are while the eye moves by less than a cell. None where `bounds` has no
@@ -90,5 +97,8 @@ struct CacheLookup {
 /// next coarser one takes its place. `address`: a cache or kNoCache for each node of each grid.
 CacheLookup lookUpCaches(const CacheGrids& grids, std::span<const std::uint32_t> address,
                          glm::vec3 p);
+/// The same aboveSurface().
+CacheLookup lookUpCaches(const CacheGrids& grids, std::span<const std::uint32_t> address,
+                         glm::vec3 p, glm::vec3 normal);
 
 } // namespace limn

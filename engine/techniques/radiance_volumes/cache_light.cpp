@@ -190,10 +190,14 @@ void lightLanes(std::span<const CachePlace> places, const CacheLightInput& input
 
 } // namespace
 
+float coneRaise(ConeShadows shadows, float voxel) {
+    return shadows == ConeShadows::Directional ? kRaised * voxel : 0;
+}
+
 BlockCone coneOf(const CacheLightInput& input, const AreaLightBlock& block,
                  const CachePlace& cache) {
     const bool published = input.shadows == ConeShadows::Published;
-    const float raise = published ? 0 : kRaised * input.voxels->lattice.cell;
+    const float raise = coneRaise(input.shadows, input.voxels->lattice.cell);
     BlockCone cone{.from = cache.raised(raise), .to = block.place + raise * block.normal};
     // The program takes the block's whole width for half of it.
     cone.sine = published ? block.width : block.width / 2;

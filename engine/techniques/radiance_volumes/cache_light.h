@@ -50,6 +50,10 @@ struct CacheLight {
 CacheLight lightCaches(std::span<const CachePlace> caches, const CacheLightInput& input,
                        const Progress& progress = {});
 
+/// Distance by which both ends of cones are raised above the surfaces there. `voxel`: side of a
+/// voxel.
+float coneRaise(ConeShadows shadows, float voxel);
+
 /// A cone from a cache to a block, in the world.
 struct BlockCone {
     glm::vec3 from{0}, to{0};

@@ -110,11 +110,12 @@ OverlayData cascadesOverlay(const CacheAllocation& caches) {
     const CacheGrid& largest = caches.grids.grids.back();
     const float radius = kPointScale * largest.cell * float(largest.nodes.x);
     for (const ShownPoint& point : caches.shown) {
-        const GridShares shares = gridShares(caches.grids, point.position);
+        const GridShares shares =
+            gridShares(caches.grids, aboveSurface(caches.grids, point.position, point.normal));
         glm::vec3 color(0);
         for (std::size_t k = 0; k < shares.count; ++k)
             color += shares.share[k].weight * gridColor(shares.share[k].grid, grids);
-        if (lookUpCaches(caches.grids, caches.address, point.position).count == 0)
+        if (lookUpCaches(caches.grids, caches.address, point.position, point.normal).count == 0)
             color = kMissedColor;
         out.marks.push_back({.position = point.position,
                              .radius = radius,
@@ -264,7 +265,8 @@ std::uint32_t VolumeSnapshot::pickCount() const {
 
 std::optional<std::uint32_t> VolumeSnapshot::pickAt(const Scene& /*scene*/, const Hit& hit) const {
     const CacheAllocation& caches = *m_lit.part->caches;
-    const CacheLookup found = lookUpCaches(caches.grids, caches.address, hit.position);
+    const CacheLookup found = lookUpCaches(caches.grids, caches.address, hit.position,
+                                           hit.geometricNormal * (hit.frontFace ? 1.f : -1.f));
     if (found.count == 0)
         return {};
     const auto end = found.weight.begin() + std::ptrdiff_t(found.count);
@@ -312,7 +314,8 @@ std::vector<OverlayLine> VolumeSnapshot::describeAt(const OverlayRequest& reques
     if (!request.kind || request.kind != &kVolumeOverlays[0])
         return lines;
     const CacheAllocation& caches = *m_lit.part->caches;
-    const CacheLookup found = lookUpCaches(caches.grids, caches.address, hit.position);
+    const CacheLookup found = lookUpCaches(caches.grids, caches.address, hit.position,
+                                           hit.geometricNormal * (hit.frontFace ? 1.f : -1.f));
     lines.push_back({Style::Separator, ""});
     lines.push_back({Style::Heading, "Caches of this point"});
     for (std::size_t k = 0; k < found.count; ++k)

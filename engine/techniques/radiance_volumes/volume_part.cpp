@@ -14,8 +14,13 @@ std::size_t VolumePart::bytes() const {
     return caches->bytes() + (light.harmonics.size() + light.glossy.size()) * sizeof(glm::vec3);
 }
 
-void VolumePart::addHarmonics(glm::vec3 p, std::span<const float> weights, FieldTaps& taps) const {
-    const CacheLookup found = lookUpCaches(caches->grids, caches->address, p);
+CacheLookup VolumePart::lookUp(const FieldPoint& point) const {
+    return lookUpCaches(caches->grids, caches->address, point.position, point.surfaceNormal());
+}
+
+void VolumePart::addHarmonics(const FieldPoint& point, std::span<const float> weights,
+                              FieldTaps& taps) const {
+    const CacheLookup found = lookUp(point);
     for (std::size_t i = 0; i < weights.size(); ++i)
         for (std::size_t k = 0; k < found.count; ++k)
             taps.push_back(
@@ -29,13 +34,13 @@ void VolumePart::irradianceTaps(const FieldPoint& point, FieldTaps& taps) const 
     for (int l = 0, i = 0; l < int(bands); ++l)
         for (; i < (l + 1) * (l + 1); ++i)
             weights[i] *= factors[std::size_t(l)];
-    addHarmonics(point.position, {weights, coefficients()}, taps);
+    addHarmonics(point, {weights, coefficients()}, taps);
 }
 
 void VolumePart::radianceTaps(const FieldPoint& point, glm::vec3 direction, FieldTaps& taps) const {
     float weights[kIrradianceBands * kIrradianceBands];
     hemisphereRadianceWeights(int(bands), point.normal, direction, weights);
-    addHarmonics(point.position, {weights, coefficients()}, taps);
+    addHarmonics(point, {weights, coefficients()}, taps);
 }
 
 void VolumePart::lobeTaps(const FieldPoint& point, glm::vec3 direction, int lobeBands,
@@ -46,7 +51,7 @@ void VolumePart::lobeTaps(const FieldPoint& point, glm::vec3 direction, int lobe
             surfaceGloss(point.scene, instance, point.triangle, point.u, point.v).roughness;
         const GlossyLookup texels =
             lookUpGlossy(*glossy, glossyFrame(eye - point.position), point.normal, roughness);
-        const CacheLookup found = lookUpCaches(caches->grids, caches->address, point.position);
+        const CacheLookup found = lookUp(point);
         for (std::size_t k = 0; k < found.count; ++k)
             for (std::size_t t = 0; t < texels.count; ++t)
                 taps.push_back({std::uint32_t(firstTexel() + found.cache[k] * glossy->texels() +
@@ -60,7 +65,7 @@ void VolumePart::lobeTaps(const FieldPoint& point, glm::vec3 direction, int lobe
     for (int l = 0, i = 0; l < used; ++l)
         for (; i < (l + 1) * (l + 1); ++i)
             weights[i] *= factors[std::size_t(l)];
-    addHarmonics(point.position, {weights, std::size_t(used * used)}, taps);
+    addHarmonics(point, {weights, std::size_t(used * used)}, taps);
 }
 
 glm::vec3 VolumePart::sum(std::span<const FieldTap> taps) const {

@@ -42,7 +42,9 @@ public:
     bool equals(const FieldPart& other) const override;
 
 private:
-    void addHarmonics(glm::vec3 p, std::span<const float> weights, FieldTaps& taps) const;
+    CacheLookup lookUp(const FieldPoint& point) const;
+    void addHarmonics(const FieldPoint& point, std::span<const float> weights,
+                      FieldTaps& taps) const;
 };
 
 } // namespace limn

@@ -15,7 +15,12 @@ struct VolumeCost : VolumeSourceCost {
     std::uint64_t cones = 0;
 };
 
-/// Sets steps and counters of a report. `lit` may be empty before the first update.
+/// Sets the steps of a report, and the counters that the CPU and a device have in common. Null:
+/// there are none.
+void describeVolume(const CacheAllocation* caches, const VoxelVolume* voxels,
+                    const VolumeCost& cost, LightingReport& report);
+
+/// The same with the counters of the CPU. `lit` may be empty before the first update.
 void describeVolume(const LitVolume& lit, const VolumeCost& cost, LightingReport& report);
 
 } // namespace limn

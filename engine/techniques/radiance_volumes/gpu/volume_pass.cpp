@@ -15,9 +15,9 @@ namespace limn {
 
 namespace {
 
-constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-constexpr std::array<VkDescriptorType, VOLUME_BINDINGS> kTypes = {kBuffer, kBuffer, kBuffer,
-                                                                  kBuffer};
+constexpr std::array<VkDescriptorType, VOLUME_BINDINGS> kPassTypes = {
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 } // namespace
 
@@ -41,18 +41,22 @@ shared::GpuCacheGrids gpuCacheGrids(const CacheGrids& grids,
 
 VolumePass::VolumePass(gpu::Device& device, const Viewport& viewport,
                        std::shared_ptr<const GpuVolume> volume)
-    : m_volume(std::move(volume)), m_setLayout(gpu::createSetLayout(device, kTypes)),
-      m_pool(gpu::createDescriptorPool(device, 1, kTypes)),
+    : m_device(device), m_setLayout(gpu::createSetLayout(device, kPassTypes)),
+      m_pool(gpu::createDescriptorPool(device, 1, kPassTypes)),
       m_set(gpu::allocateSet(device, m_pool, m_setLayout)),
       m_pipelines(device, viewport.frameLayout(), std::array{m_setLayout.handle}, kVolumeLightFrag,
-                  {m_volume->bands}, "radiance volumes") {
-    gpu::Uploader uploader(device);
-    m_grids = uploader.buffer(std::as_bytes(std::span(&m_volume->grids, 1)),
-                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grids of caches");
-    uploader.flush();
+                  {volume->bands}, "radiance volumes") {
+    show(std::move(volume));
+}
+
+void VolumePass::show(std::shared_ptr<const GpuVolume> volume) {
+    m_volume = std::move(volume);
+    m_grids = gpu::Uploader(m_device).buffer(std::as_bytes(std::span(&m_volume->grids, 1)),
+                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grids of caches");
     const auto bind = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
         // What is empty is not read.
-        gpu::writeBuffer(device, m_set, binding, kBuffer, buffer ? buffer.handle : m_grids.handle);
+        gpu::writeBuffer(m_device, m_set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                         buffer ? buffer.handle : m_grids.handle);
     };
     bind(VOLUME_GRIDS, m_grids);
     bind(VOLUME_ADDRESS, m_volume->address);

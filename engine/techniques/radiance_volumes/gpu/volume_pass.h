@@ -33,14 +33,18 @@ shared::GpuCacheGrids gpuCacheGrids(const CacheGrids& grids,
 /// Draws the light of caches.
 class VolumePass : public LightPass {
 public:
-    /// `volume` must not be null and does not change. Device and viewport outlive the object.
+    /// `volume` must not be null. Device and viewport outlive the object.
     VolumePass(gpu::Device& device, const Viewport& viewport,
                std::shared_ptr<const GpuVolume> volume);
+
+    /// Shows another volume of as many bands. No frame in flight may show the one before.
+    void show(std::shared_ptr<const GpuVolume> volume);
 
     void record(const LightPassFrame& frame) override;
     std::uint64_t bytes() const override { return m_volume->bytes() + m_grids.size; }
 
 private:
+    gpu::Device& m_device;
     std::shared_ptr<const GpuVolume> m_volume;
     gpu::Buffer m_grids;
     gpu::DescriptorSetLayout m_setLayout;

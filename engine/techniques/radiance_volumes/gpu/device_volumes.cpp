@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "engine/techniques/radiance_volumes/gpu/device_volumes.h"
+
+#include "engine/core/stopwatch.h"
+#include "engine/gpu/uploader.h"
+#include "engine/scene/light/unit_light.h"
+#include "engine/techniques/radiance_volumes/volume_overlay.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace limn {
+
+DeviceVolumes::DeviceVolumes(gpu::Device& device, Viewport& viewport)
+    : m_device(device), m_viewport(viewport), m_maps(device, viewport),
+      m_allocation(device, viewport), m_light(device) {}
+
+LightingReport DeviceVolumes::update(const LightingInput& input, const Progress& progress) {
+    Stopwatch whole;
+    VolumeInputs now = volumeInputsOf(input, m_followed);
+    LightingReport report{.converged = true};
+    report.skipped = m_inputs == now;
+    Cost cost;
+    if (!report.skipped) {
+        const std::uint64_t before = dispatches();
+        m_inputs.reset(); // a cancelled update starts anew
+        if (relight(input.scene, now, progress, cost)) {
+            m_inputs = std::move(now);
+            m_scene = input.scene;
+            report.bounces = 1;
+        } else {
+            report.converged = report.whole = false;
+        }
+        cost.dispatches = dispatches() - before;
+    }
+    if (m_pass)
+        m_viewport.setIndirect(m_pass);
+    describe(cost, report);
+    report.lacks = m_lacks;
+    report.totalMs = whole.lap();
+    return report;
+}
+
+const GpuAreaLights* DeviceVolumes::lightsOf(const Light& shape) const {
+    const auto it = std::ranges::find(m_lights, shape, &GpuAreaLights::shape);
+    return it == m_lights.end() ? nullptr : &*it;
+}
+
+/// Draws the maps of lights that have none. False if cancelled.
+bool DeviceVolumes::castMaps(const Scene& scene, const VolumeInputs& now, const Progress& progress,
+                             Cost& cost) {
+    std::erase_if(m_lights, [&](const GpuAreaLights& kept) {
+        return std::ranges::none_of(
+            scene.lights, [&](const Light& light) { return unitLight(light) == kept.shape; });
+    });
+    for (const RsmSource& source : now.sources) {
+        if (lightsOf(source.shape))
+            continue;
+        if (progress.cancelled())
+            return false;
+        m_lights.push_back(m_maps.cast(source.shape, scene.bounds,
+                                       {now.settings.map, now.settings.read, now.settings.level}));
+        cost.views += m_lights.back().views;
+        ++cost.traced;
+    }
+    return true;
+}
+
+void DeviceVolumes::placeCaches(const Scene& scene, const VolumeInputs& now) {
+    std::optional<CacheAllocation> made =
+        now.view ? m_allocation.allocate(scene, *now.view, now.settings)
+                 : allocateForScene(scene, now.settings);
+    if (!made)
+        m_lacks = "all light: this device cannot bind as many nodes";
+    m_caches = std::make_shared<const CacheAllocation>(made ? std::move(*made) : CacheAllocation());
+}
+
+/// False if cancelled.
+bool DeviceVolumes::relight(const Scene& scene, const VolumeInputs& now, const Progress& progress,
+                            Cost& cost) {
+    Stopwatch clock;
+    const VolumeChanges changes = changesOf(m_followed, now);
+    m_lacks = now.settings.glossy ? "maps for reflections, which the CPU alone makes" : nullptr;
+    if (changes.maps)
+        m_lights.clear();
+    if (changes.voxels)
+        m_voxels.reset();
+    if (changes.caches)
+        m_caches.reset();
+    m_followed = now;
+    if (!castMaps(scene, now, progress, cost))
+        return false;
+    cost.mapMs = clock.lap();
+    if (!m_voxels && now.settings.shadow != ConeShadows::None) {
+        auto voxels = std::make_shared<const VoxelVolume>(voxelsOf(scene, now.settings.voxels));
+        if (m_light.setVoxels(*voxels))
+            m_voxels = std::move(voxels);
+        else
+            m_lacks = "shadows: this device cannot bind as many voxels";
+    }
+    cost.voxelMs = clock.lap();
+    if (!m_caches)
+        placeCaches(scene, now);
+    cost.allocationMs = clock.lap();
+    if (progress.cancelled())
+        return false;
+    std::vector<GpuLitAreaLights> lit;
+    for (const RsmSource& source : now.sources)
+        lit.push_back({lightsOf(source.shape), source.colour});
+    auto volume = std::make_shared<GpuVolume>();
+    volume->grids = gpuCacheGrids(m_caches->grids, {}, glm::vec3(0));
+    volume->bands = now.settings.bands;
+    volume->harmonics =
+        m_light.light(m_caches->places, lit, m_voxels ? now.settings.shadow : ConeShadows::None,
+                      now.settings.bands);
+    if (!m_caches->address.empty())
+        volume->address = gpu::Uploader(m_device).buffer(
+            std::as_bytes(std::span(m_caches->address)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            "addresses of caches");
+    // The pass keeps its pipelines: all frames that read the light before have ended by now, since
+    // light() waited for the device.
+    if (m_pass && m_volume && m_volume->bands == volume->bands)
+        m_pass->show(volume);
+    else
+        m_pass = std::make_shared<VolumePass>(m_device, m_viewport, volume);
+    m_volume = std::move(volume);
+    cost.lightMs = clock.lap();
+    return true;
+}
+
+std::shared_ptr<const VolumePart> DeviceVolumes::readPart() const {
+    auto part = std::make_shared<VolumePart>();
+    part->caches = m_caches;
+    part->bands = m_volume->bands;
+    part->light.harmonics.resize(m_caches->caches() * part->coefficients());
+    if (m_volume->harmonics)
+        gpu::readBuffer(m_device, m_volume->harmonics,
+                        std::as_writable_bytes(std::span(part->light.harmonics)));
+    return part;
+}
+
+IndirectField DeviceVolumes::readField() const {
+    IndirectField field;
+    if (!m_volume)
+        return field;
+    field.bands = m_volume->bands;
+    field.parts = {readPart()};
+    field.version = 1;
+    return field;
+}
+
+std::shared_ptr<const LightSnapshot> DeviceVolumes::snapshot() const {
+    if (!m_inputs)
+        return nullptr;
+    const TraceScene trace(m_scene);
+    VolumeInputs inputs = *m_inputs;
+    inputs.view.reset(); // the caches are the device's
+    VolumeSourceCost cost;
+    m_onCpu.follow(trace, m_scene, inputs, {}, cost);
+    return std::make_shared<const VolumeSnapshot>(
+        LitVolume{.settings = inputs.settings,
+                  .part = readPart(),
+                  .voxels = m_onCpu.sharedVoxels(),
+                  .sources = inputs.sources,
+                  .lights = m_onCpu.areaLights(inputs.sources)});
+}
+
+void DeviceVolumes::describe(const Cost& cost, LightingReport& report) const {
+    describeVolume(m_caches.get(), m_voxels.get(), cost, report);
+    std::uint64_t bytes = m_maps.bytes() + m_allocation.bytes() + m_light.bytes();
+    for (const GpuAreaLights& lights : m_lights)
+        bytes += lights.lights.size + lights.blocks.size;
+    if (m_pass)
+        bytes += m_pass->bytes();
+    report.counters.push_back(
+        {"views", "Views drawn", "Views of lights that were drawn for maps", double(cost.views)});
+    report.counters.push_back(
+        {"dispatches", "Dispatches", "Compute dispatches of the update", double(cost.dispatches)});
+    report.counters.push_back({"bytes", "Memory",
+                               "On the device: caches, their addresses, area lights, voxels, maps",
+                               double(bytes), CounterUnit::Bytes});
+}
+
+Result<std::unique_ptr<Lighting>> lightVolumesOnDevice(gpu::Device& device, Viewport& viewport,
+                                                       const Prepared& /*prepared*/) {
+    return std::unique_ptr<Lighting>(std::make_unique<DeviceVolumes>(device, viewport));
+}
+
+} // namespace limn

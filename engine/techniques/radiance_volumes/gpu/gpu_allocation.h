@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/descriptors.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/render/viewport.h"
+#include "engine/techniques/radiance_volumes/allocation.h"
+#include "shaders/shared/gpu_volumes.h"
+
+#include <cstdint>
+#include <optional>
+
+namespace limn {
+
+/// Places caches by a picture that a viewport draws, as allocateForView() does by rays. Not
+/// thread-safe.
+class GpuAllocation {
+public:
+    /// Both outlive the object.
+    GpuAllocation(gpu::Device& device, Viewport& viewport);
+
+    /// Waits for the device. Pixels are not counted, and the points shown are those of all
+    /// surfaces. None if the device cannot bind what the nodes take.
+    std::optional<CacheAllocation> allocate(const Scene& scene, const Viewpoint& view,
+                                            const VolumeSettings& settings);
+
+    std::uint64_t dispatches() const { return m_dispatches; }
+    std::uint64_t bytes() const { return m_sums.size + m_mapBytes; } ///< of sums and images
+
+private:
+    gpu::Device& m_device;
+    Viewport& m_viewport;
+    gpu::Buffer m_grids; ///< mapped
+    gpu::Buffer m_sums;  ///< shared::GpuPlaceSums of each node
+    gpu::DescriptorSetLayout m_setLayout;
+    gpu::DescriptorPool m_pool;
+    VkDescriptorSet m_set = VK_NULL_HANDLE;
+    gpu::PipelineLayout m_layout;
+    gpu::Pipeline m_demand;
+    std::uint64_t m_dispatches = 0, m_mapBytes = 0;
+};
+
+} // namespace limn
