@@ -74,6 +74,11 @@ void DeviceVolumes::placeCaches(const Scene& scene, const VolumeInputs& now) {
     if (!made)
         m_lacks = "all light: this device cannot bind as many nodes";
     m_caches = std::make_shared<const CacheAllocation>(made ? std::move(*made) : CacheAllocation());
+    m_address.reset();
+    if (!m_caches->address.empty())
+        m_address = std::make_shared<const gpu::Buffer>(gpu::Uploader(m_device).buffer(
+            std::as_bytes(std::span(m_caches->address)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+            "addresses of caches"));
 }
 
 /// False if cancelled.
@@ -114,10 +119,7 @@ bool DeviceVolumes::relight(const Scene& scene, const VolumeInputs& now, const P
     volume->harmonics =
         m_light.light(m_caches->places, lit, m_voxels ? now.settings.shadow : ConeShadows::None,
                       now.settings.bands);
-    if (!m_caches->address.empty())
-        volume->address = gpu::Uploader(m_device).buffer(
-            std::as_bytes(std::span(m_caches->address)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-            "addresses of caches");
+    volume->address = m_address;
     // The pass keeps its pipelines: all frames that read the light before have ended by now, since
     // light() waited for the device.
     if (m_pass && m_volume && m_volume->bands == volume->bands)

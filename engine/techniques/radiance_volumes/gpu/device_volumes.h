@@ -59,6 +59,7 @@ private:
     std::shared_ptr<const VoxelVolume> m_voxels; ///< null: none yet, or the device cannot bind them
     std::vector<GpuAreaLights> m_lights;         ///< each shape once
     std::shared_ptr<const CacheAllocation> m_caches;
+    std::shared_ptr<const gpu::Buffer> m_address; ///< of m_caches
     std::shared_ptr<const GpuVolume> m_volume;
     std::shared_ptr<VolumePass> m_pass;
     std::optional<VolumeInputs> m_followed; ///< of what is kept

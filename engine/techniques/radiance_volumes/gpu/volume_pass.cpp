@@ -59,7 +59,7 @@ void VolumePass::show(std::shared_ptr<const GpuVolume> volume) {
                          buffer ? buffer.handle : m_grids.handle);
     };
     bind(VOLUME_GRIDS, m_grids);
-    bind(VOLUME_ADDRESS, m_volume->address);
+    bind(VOLUME_ADDRESS, m_volume->address ? *m_volume->address : m_grids);
     bind(VOLUME_HARMONICS, m_volume->harmonics);
     bind(VOLUME_GLOSSY, m_volume->glossy);
 }
@@ -89,12 +89,13 @@ std::shared_ptr<LightPass> uploadVolumePart(gpu::Device& device, Viewport& viewp
         }
         return uploader.buffer(bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name);
     };
-    volume->address = upload(part->caches->address, "addresses of caches");
+    gpu::Buffer address = upload(part->caches->address, "addresses of caches");
     volume->harmonics = upload(part->light.harmonics, "light of caches");
     volume->glossy = upload(part->light.glossy, "maps of caches");
     uploader.flush();
-    if (!volume->address || !volume->harmonics)
+    if (!address || !volume->harmonics)
         return nullptr;
+    volume->address = std::make_shared<const gpu::Buffer>(std::move(address));
     volume->grids =
         gpuCacheGrids(part->caches->grids, volume->glossy ? part->glossy : std::nullopt, part->eye);
     return std::make_shared<VolumePass>(device, viewport, std::move(volume));

@@ -20,10 +20,12 @@ namespace limn {
 struct GpuVolume {
     shared::GpuCacheGrids grids{};
     std::uint32_t bands = 2;
-    gpu::Buffer address;   ///< uint for each node of each grid
-    gpu::Buffer harmonics; ///< CacheLight::harmonics
-    gpu::Buffer glossy;    ///< CacheLight::glossy
-    std::uint64_t bytes() const { return address.size + harmonics.size + glossy.size; }
+    std::shared_ptr<const gpu::Buffer> address; ///< uint for each node of each grid; may be null
+    gpu::Buffer harmonics;                      ///< CacheLight::harmonics
+    gpu::Buffer glossy;                         ///< CacheLight::glossy
+    std::uint64_t bytes() const {
+        return (address ? address->size : 0) + harmonics.size + glossy.size;
+    }
 };
 
 /// The grids as shaders read them. `glossy`: shape of the maps for reflections, for `eye`.
