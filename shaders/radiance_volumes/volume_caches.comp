@@ -13,6 +13,7 @@ layout(std430, binding = VOLUME_CACHE_LIGHTS) readonly buffer Lights { GpuAreaLi
 layout(std430, binding = VOLUME_CACHE_BLOCKS) readonly buffer Blocks { GpuLightBlock blocks[]; };
 layout(std430, binding = VOLUME_CACHE_VOXELS) readonly buffer Voxels { uint voxels[]; };
 layout(std430, binding = VOLUME_CACHE_HARMONICS) buffer Harmonics { float harmonics[]; };
+layout(std430, binding = VOLUME_CACHE_VISIBILITY) writeonly buffer Visibility { float visibilities[]; };
 
 #include "shaders/shared/voxel_cone.glsl"
 
@@ -65,9 +66,10 @@ void main() {
         const vec3 p = places[cache].position, raised = places[cache].raised;
         for (uint b = lane; b < light.blocks; b += VOLUME_CACHE_LANES) {
             const GpuLightBlock block = blocks[b];
-            if (block.lit == 0u || !faces(b, p))
-                continue;
-            const float visible = visibility(block, raised);
+            const bool faced = block.lit > 0u && faces(b, p);
+            const float visible = faced ? visibility(block, raised) : 0.0;
+            if (light.keepsVisibility == 1u)
+                visibilities[cache * light.blocks + b] = visible;
             if (visible > 0.0)
                 gather(b, visible, p, sum);
         }

@@ -26,6 +26,20 @@ vec2 squareOfHemisphere(vec3 d) {
     return clamp((wide ? vec2(a, b) : vec2(b, a)) * 0.5 + 0.5, 0.0, 1.0);
 }
 
+/// glossySplat(): the texel of the finest level that light from unit `direction` adds to, and the factor of its
+/// perpendicular irradiance.
+uint glossySplat(uint tile, mat3 frame, vec3 direction, out float factor) {
+    const vec3 sum = direction + frame[2];
+    const float reach = length(sum);
+    factor = 0.0;
+    if (!(reach > 1e-6))
+        return 0u;
+    const vec3 h = sum / reach;
+    const uvec2 texel = min(uvec2(squareOfHemisphere(h * frame) * float(tile)), uvec2(tile - 1u));
+    factor = dot(h, direction) * (float(tile * tile) + 7.0) / (8.0 * kGlossyPi);
+    return texel.y * tile + texel.x;
+}
+
 /// GlossyMapShape::levels(), firstTexel().
 uint glossyLevels(uint tile) {
     return uint(findMSB(tile)) + 1u;

@@ -41,7 +41,9 @@ using uint = std::uint32_t;
 #define VOLUME_CACHE_VOXELS                                                                        \
     3u // uint for each cell of each level: bytes along x, y, z, and distance or mean
 #define VOLUME_CACHE_HARMONICS 4u
-#define VOLUME_CACHE_BINDINGS 5u
+#define VOLUME_CACHE_VISIBILITY 5u // float for each block of each cache, where there are maps
+#define VOLUME_CACHE_GLOSSY 6u     // of volume_maps.comp
+#define VOLUME_CACHE_BINDINGS 7u
 #define VOLUME_CACHE_LANES 32u
 
 #define VOLUME_SHADOWS_NONE 0u // as limn::ConeShadows
@@ -115,7 +117,15 @@ struct GpuVolumeLight {
     vec3 voxelLower; float voxelCell; // m
     uint voxelSide, shadows;          // voxels along a side; VOLUME_SHADOWS_*
     uint blockLights, parallel;       // area lights of a block; 1: those of a sun
-    float raise; uint caches, first, pad0; // m; 1: replaces what the caches hold
+    float raise; uint caches, first;  // m; 1: replaces what the caches hold
+    uint keepsVisibility;             // 1: for volume_maps.comp
+};
+
+/// Push constants of volume_maps.comp: the same light, or, without blocks, the end of all.
+struct GpuVolumeMaps {
+    vec3 eye; uint tile;              // texels along a map's side
+    vec3 colour; uint caches;
+    uint blocks, blockLights, fill, first; // levels that are filled; 1: the maps are cleared
 };
 // clang-format on
 
@@ -124,6 +134,7 @@ static_assert(sizeof(GpuVolumeMap) == 112);
 static_assert(sizeof(GpuAreaLight) == 64);
 static_assert(sizeof(GpuPlaceSums) == 20);
 static_assert(sizeof(GpuVolumeLight) == 64);
+static_assert(sizeof(GpuVolumeMaps) == 48);
 static_assert(sizeof(GpuCacheGrids) == 4 * 64 + 32);
 } // namespace limn::shared
 #endif

@@ -86,7 +86,7 @@ bool DeviceVolumes::relight(const Scene& scene, const VolumeInputs& now, const P
                             Cost& cost) {
     Stopwatch clock;
     const VolumeChanges changes = changesOf(m_followed, now);
-    m_lacks = now.settings.glossy ? "maps for reflections, which the CPU alone makes" : nullptr;
+    m_lacks = nullptr;
     if (changes.maps)
         m_lights.clear();
     if (changes.voxels)
@@ -113,12 +113,23 @@ bool DeviceVolumes::relight(const Scene& scene, const VolumeInputs& now, const P
     std::vector<GpuLitAreaLights> lit;
     for (const RsmSource& source : now.sources)
         lit.push_back({lightsOf(source.shape), source.colour});
+    GpuCacheLightInput input{.lights = lit,
+                             .shadows = m_voxels ? now.settings.shadow : ConeShadows::None,
+                             .bands = now.settings.bands};
+    if (now.settings.glossy && now.view) {
+        input.glossy = GlossyMapShape{now.settings.tile, now.settings.fill};
+        input.eye = now.view->camera.eye;
+    }
+    GpuCachesLight light = m_light.light(m_caches->places, input);
+    if (input.glossy && !light.glossy && !lit.empty())
+        m_lacks = "maps for reflections: this device cannot bind as many";
+    m_glossy = light.glossy ? input.glossy : std::nullopt;
+    m_eye = input.eye;
     auto volume = std::make_shared<GpuVolume>();
-    volume->grids = gpuCacheGrids(m_caches->grids, {}, glm::vec3(0));
+    volume->grids = gpuCacheGrids(m_caches->grids, m_glossy, m_eye);
     volume->bands = now.settings.bands;
-    volume->harmonics =
-        m_light.light(m_caches->places, lit, m_voxels ? now.settings.shadow : ConeShadows::None,
-                      now.settings.bands);
+    volume->harmonics = std::move(light.harmonics);
+    volume->glossy = std::move(light.glossy);
     volume->address = m_address;
     // The pass keeps its pipelines: all frames that read the light before have ended by now, since
     // light() waited for the device.
@@ -139,6 +150,13 @@ std::shared_ptr<const VolumePart> DeviceVolumes::readPart() const {
     if (m_volume->harmonics)
         gpu::readBuffer(m_device, m_volume->harmonics,
                         std::as_writable_bytes(std::span(part->light.harmonics)));
+    part->glossy = m_glossy;
+    part->eye = m_eye;
+    if (m_glossy) {
+        part->light.glossy.resize(m_caches->caches() * m_glossy->texels());
+        gpu::readBuffer(m_device, m_volume->glossy,
+                        std::as_writable_bytes(std::span(part->light.glossy)));
+    }
     return part;
 }
 

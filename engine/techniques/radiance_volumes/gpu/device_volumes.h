@@ -18,8 +18,7 @@
 namespace limn {
 
 /// Radiance volumes on the device of a viewport, which draws the maps of lights and of the camera,
-/// and shows the light where it was written. Voxels and the numbers of caches are the CPU's. There
-/// are no maps for reflections: glossy surfaces reflect the harmonics.
+/// and shows the light where it was written. Voxels and the numbers of caches are the CPU's.
 class DeviceVolumes : public Lighting {
 public:
     /// Both outlive the object.
@@ -61,6 +60,8 @@ private:
     std::shared_ptr<const CacheAllocation> m_caches;
     std::shared_ptr<const gpu::Buffer> m_address; ///< of m_caches
     std::shared_ptr<const GpuVolume> m_volume;
+    std::optional<GlossyMapShape> m_glossy; ///< of m_volume
+    glm::vec3 m_eye{0};                     ///< of its maps
     std::shared_ptr<VolumePass> m_pass;
     std::optional<VolumeInputs> m_followed; ///< of what is kept
     std::optional<VolumeInputs> m_inputs;   ///< of the light; none before the first update

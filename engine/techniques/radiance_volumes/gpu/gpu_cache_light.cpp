@@ -4,6 +4,7 @@
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/uploader.h"
 #include "shaders/radiance_volumes/volume_caches.comp.h"
+#include "shaders/radiance_volumes/volume_maps.comp.h"
 
 #include <algorithm>
 #include <array>
@@ -11,14 +12,15 @@
 namespace limn {
 
 using shared::GpuVolumeLight;
+using shared::GpuVolumeMaps;
 
 namespace {
 
-constexpr std::array kCacheTypes = {
+constexpr std::array<VkDescriptorType, VOLUME_CACHE_BINDINGS> kCacheTypes = {
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
     VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-static_assert(kCacheTypes.size() == VOLUME_CACHE_BINDINGS);
 static_assert(VOLUME_SHADOWS_DIRECTIONAL == std::uint32_t(ConeShadows::Directional) &&
               VOLUME_SHADOWS_PUBLISHED == std::uint32_t(ConeShadows::Published));
 
@@ -42,11 +44,15 @@ std::vector<std::uint32_t> wordsOf(const VoxelVolume& voxels) {
 GpuCacheLight::GpuCacheLight(gpu::Device& device)
     : m_device(device), m_setLayout(gpu::createSetLayout(device, kCacheTypes)),
       m_layout(gpu::createPipelineLayout(device, std::array{m_setLayout.handle},
-                                         sizeof(GpuVolumeLight), "light of caches")) {
+                                         std::max(sizeof(GpuVolumeLight), sizeof(GpuVolumeMaps)),
+                                         "light of caches")) {
     for (std::uint32_t k = 0; k < 2; ++k)
         m_caches[k] = gpu::createComputePipeline(
             device, kVolumeCachesComp, m_layout.handle,
             std::array<std::uint32_t, 2>{VOLUME_CACHE_LANES, 2 + k}, "light of caches");
+    m_maps = gpu::createComputePipeline(device, kVolumeMapsComp, m_layout.handle,
+                                        std::array<std::uint32_t, 1>{VOLUME_CACHE_LANES},
+                                        "maps of caches");
 }
 
 bool GpuCacheLight::setVoxels(const VoxelVolume& voxels) {
@@ -60,66 +66,125 @@ bool GpuCacheLight::setVoxels(const VoxelVolume& voxels) {
     return true;
 }
 
-gpu::Buffer GpuCacheLight::light(std::span<const CachePlace> places,
-                                 std::span<const GpuLitAreaLights> lights, ConeShadows shadows,
-                                 std::uint32_t bands) {
+/// What the steps of one light bind.
+struct GpuCacheLight::Bound {
+    VkDescriptorSet set;
+    std::uint32_t caches;
+    float raise;
+};
+
+/// Makes what the light is written to. Takes the maps out of the input where there is no room.
+void GpuCacheLight::makeRoom(std::size_t caches, GpuCacheLightInput& input, GpuCachesLight& made) {
+    const auto buffer = [&](std::size_t bytes, const char* name) {
+        return gpu::Buffer(m_device, {.size = bytes,
+                                      .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                      .name = name});
+    };
+    made.harmonics =
+        buffer(caches * input.bands * input.bands * sizeof(glm::vec3), "light of caches");
+    std::size_t blocks = 0;
+    for (const GpuLitAreaLights& lit : input.lights)
+        blocks = std::max<std::size_t>(blocks, lit.lights->blockCount);
+    const std::size_t texels = input.glossy ? input.glossy->texels() * sizeof(glm::vec3) : 0;
+    const std::uint64_t limit = m_device.properties.limits.maxStorageBufferRange;
+    if (caches * std::max(texels, blocks * sizeof(float)) > limit)
+        input.glossy.reset();
+    m_visibility = {};
+    if (!input.glossy || blocks == 0)
+        return;
+    made.glossy = buffer(caches * texels, "maps of caches");
+    m_visibility = buffer(caches * blocks * sizeof(float), "visibility of blocks");
+}
+
+void GpuCacheLight::recordLight(VkCommandBuffer cmd, const Bound& bound,
+                                const GpuCacheLightInput& input, const GpuLitAreaLights& lit,
+                                bool first) {
+    const GpuVolumeLight constants{.colour = lit.colour,
+                                   .blocks = lit.lights->blockCount,
+                                   .voxelLower = m_lattice.lower,
+                                   .voxelCell = m_lattice.cell,
+                                   .voxelSide = m_lattice.size.x,
+                                   .shadows = std::uint32_t(input.shadows),
+                                   .blockLights = lit.lights->blockSize,
+                                   .parallel = lit.lights->parallel ? 1U : 0U,
+                                   .raise = bound.raise,
+                                   .caches = bound.caches,
+                                   .first = first ? 1U : 0U,
+                                   .keepsVisibility = m_visibility ? 1U : 0U};
+    m_dispatches += gpu::dispatch(m_device, cmd, m_caches[input.bands - 2].handle, m_layout.handle,
+                                  bound.set, std::as_bytes(std::span(&constants, 1)), bound.caches);
+}
+
+/// Adds a light to the maps; null: completes them.
+void GpuCacheLight::recordMaps(VkCommandBuffer cmd, const Bound& bound,
+                               const GpuCacheLightInput& input, const GpuLitAreaLights* lit,
+                               bool first) {
+    const GpuVolumeMaps constants{.eye = input.eye,
+                                  .tile = input.glossy->tile,
+                                  .colour = lit ? lit->colour : glm::vec3(0),
+                                  .caches = bound.caches,
+                                  .blocks = lit ? lit->lights->blockCount : 0,
+                                  .blockLights = lit ? lit->lights->blockSize : 0,
+                                  .fill = input.glossy->fill,
+                                  .first = first ? 1U : 0U};
+    m_dispatches += gpu::dispatch(m_device, cmd, m_maps.handle, m_layout.handle, bound.set,
+                                  std::as_bytes(std::span(&constants, 1)), bound.caches);
+}
+
+GpuCachesLight GpuCacheLight::light(std::span<const CachePlace> places, GpuCacheLightInput input) {
+    GpuCachesLight made;
     if (places.empty())
-        return {};
+        return made;
     if (!m_voxels)
-        shadows = ConeShadows::None;
-    const float raise = coneRaise(shadows, m_lattice.cell);
+        input.shadows = ConeShadows::None;
+    std::vector<const GpuLitAreaLights*> shining;
+    for (const GpuLitAreaLights& lit : input.lights)
+        if (lit.lights->blockCount > 0)
+            shining.push_back(&lit);
+    makeRoom(places.size(), input, made);
+    Bound bound{.set = VK_NULL_HANDLE,
+                .caches = std::uint32_t(places.size()),
+                .raise = coneRaise(input.shadows, m_lattice.cell)};
     std::vector<shared::GpuCachePlace> onDevice;
     for (const CachePlace& place : places)
-        onDevice.push_back({.position = place.position, .raised = place.raised(raise)});
+        onDevice.push_back({.position = place.position, .raised = place.raised(bound.raise)});
     gpu::Uploader uploader(m_device);
     const gpu::Buffer placed = uploader.buffer(std::as_bytes(std::span(onDevice)),
                                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "caches");
     uploader.flush();
-    gpu::Buffer harmonics(m_device, {.size = places.size() * bands * bands * sizeof(glm::vec3),
-                                     .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                              VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                     .name = "light of caches"});
-    std::vector<const GpuLitAreaLights*> shining;
-    for (const GpuLitAreaLights& lit : lights)
-        if (lit.lights->blockCount > 0)
-            shining.push_back(&lit);
     const gpu::DescriptorPool pool = gpu::createDescriptorPool(
-        m_device, std::max<std::uint32_t>(std::uint32_t(shining.size()), 1U), kCacheTypes);
+        m_device, std::max(std::uint32_t(shining.size()), 1U), kCacheTypes);
     m_device.immediate("light of caches", [&](VkCommandBuffer cmd) {
         if (shining.empty()) {
-            vkCmdFillBuffer(cmd, harmonics.handle, 0, VK_WHOLE_SIZE, 0);
+            vkCmdFillBuffer(cmd, made.harmonics.handle, 0, VK_WHOLE_SIZE, 0);
             gpu::memoryBarrier(cmd, gpu::kTransferWrite, gpu::kAllReads);
         }
         for (const GpuLitAreaLights* lit : shining) {
-            const VkDescriptorSet set = gpu::allocateSet(m_device, pool, m_setLayout);
+            const bool first = lit == shining.front();
+            bound.set = gpu::allocateSet(m_device, pool, m_setLayout);
             const auto bind = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
-                gpu::writeBuffer(m_device, set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                 buffer.handle);
+                // What is empty is not read.
+                gpu::writeBuffer(m_device, bound.set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                 buffer ? buffer.handle : placed.handle);
             };
             bind(VOLUME_CACHE_PLACES, placed);
             bind(VOLUME_CACHE_LIGHTS, lit->lights->lights);
             bind(VOLUME_CACHE_BLOCKS, lit->lights->blocks);
-            bind(VOLUME_CACHE_VOXELS, m_voxels ? m_voxels : placed); // not read without shadows
-            bind(VOLUME_CACHE_HARMONICS, harmonics);
-            const GpuVolumeLight constants{.colour = lit->colour,
-                                           .blocks = lit->lights->blockCount,
-                                           .voxelLower = m_lattice.lower,
-                                           .voxelCell = m_lattice.cell,
-                                           .voxelSide = m_lattice.size.x,
-                                           .shadows = std::uint32_t(shadows),
-                                           .blockLights = lit->lights->blockSize,
-                                           .parallel = lit->lights->parallel ? 1U : 0U,
-                                           .raise = raise,
-                                           .caches = std::uint32_t(places.size()),
-                                           .first = lit == shining.front() ? 1U : 0U};
-            m_dispatches +=
-                gpu::dispatch(m_device, cmd, m_caches[bands - 2].handle, m_layout.handle, set,
-                              std::as_bytes(std::span(&constants, 1)), places.size());
-            gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kAllReads);
+            bind(VOLUME_CACHE_VOXELS, m_voxels);
+            bind(VOLUME_CACHE_HARMONICS, made.harmonics);
+            bind(VOLUME_CACHE_VISIBILITY, m_visibility);
+            bind(VOLUME_CACHE_GLOSSY, made.glossy);
+            recordLight(cmd, bound, input, *lit, first);
+            if (made.glossy)
+                recordMaps(cmd, bound, input, lit, first);
         }
+        if (made.glossy)
+            recordMaps(cmd, bound, input, nullptr, false);
+        gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kAllReads);
     });
-    return harmonics;
+    return made;
 }
 
 } // namespace limn
