@@ -40,7 +40,7 @@ void main() {
             p.metal = s.baseColor;
             p.metallic = s.metallic;
             p.roughness = s.roughness;
-            const uint instance = uint(s.lightmapUv.x);
+            const uint instance = min(uint(s.lightmapUv.x), uint(glasses.length()) - 1u);
             const vec4 glass = glasses[instance];
             p.transmitted = (1.0 - s.metallic) * glass.x;
             p.tint = s.baseColor * p.transmitted;

@@ -86,12 +86,14 @@ const TraceScene& DevicePhotons::traceOf(const LightingInput& input) {
 PhotonMap DevicePhotons::traceLight(const LightingInput& input, const Light& light,
                                     const PathSettings& settings, const Progress& progress) {
     const std::uint32_t side = photonMapSide(light, input.scene.bounds, settings.photons);
-    const std::vector<GpuBounce> bounces = m_bounces.bounce(input.scene, light, side);
+    const auto bounces = m_bounces.bounce(input.scene, light, side);
     const PhotonScene scene{traceOf(input), input.scene, settings};
+    if (!bounces)
+        return limn::traceLight(scene, light, progress);
     return tracePaths(
-        scene, std::uint32_t(bounces.size()),
+        scene, std::uint32_t(bounces->size()),
         [&](std::uint32_t path, PhotonMap& map) {
-            return startOf(bounces[path], path, scene, map);
+            return startOf((*bounces)[path], path, scene, map);
         },
         progress);
 }

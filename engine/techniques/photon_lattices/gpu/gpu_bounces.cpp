@@ -55,11 +55,11 @@ void GpuBounces::bind(const SurfaceMap& map) {
     m_mapBytes = map.bytes;
 }
 
-std::vector<GpuBounce> GpuBounces::bounce(const Scene& scene, const Light& light,
-                                          std::uint32_t side) {
+std::optional<std::vector<GpuBounce>> GpuBounces::bounce(const Scene& scene, const Light& light,
+                                                         std::uint32_t side) {
     const std::vector<DrawnRsmView> views = drawnRsmViews(light, scene.bounds, side);
     if (views.empty() || scene.instances.empty())
-        return {};
+        return std::vector<GpuBounce>();
     const std::uint32_t texels = views[0].view.size * views[0].view.size;
     std::vector<GpuBounce> bounces(std::size_t(views.back().index + 1) * texels);
     {
@@ -68,8 +68,8 @@ std::vector<GpuBounce> GpuBounces::bounce(const Scene& scene, const Light& light
         // Views that are not drawn stay dark.
         m_bounces = maker.filled(bounces, "photons' bounces");
     } // sends them
-    if (!m_bounces)
-        return {};
+    if (!m_bounces || !m_glass)
+        return std::nullopt;
     std::vector<SurfaceMapView> drawn;
     for (const DrawnRsmView& view : views)
         drawn.push_back(view.drawn);

@@ -7,6 +7,7 @@
 #include "shaders/shared/gpu_photon_bounce.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace limn {
@@ -21,10 +22,10 @@ public:
 
     /// Draws the maps of a light, as unitLight() makes it, of `scene`, which the viewport shows,
     /// and returns what becomes of each texel's photon, in the order of the texels of castRsm().
-    /// `side`: texels along a side of a view. Empty where nothing can be drawn. Waits for the
-    /// device.
-    std::vector<shared::GpuBounce> bounce(const Scene& scene, const Light& light,
-                                          std::uint32_t side);
+    /// `side`: texels along a side of a view. None where there is nothing to draw; std::nullopt
+    /// where the device cannot bind that many. Waits for the device.
+    std::optional<std::vector<shared::GpuBounce>> bounce(const Scene& scene, const Light& light,
+                                                         std::uint32_t side);
 
     std::uint64_t dispatches() const { return m_dispatches; } ///< so far
     std::uint64_t views() const { return m_views; }           ///< drawn so far

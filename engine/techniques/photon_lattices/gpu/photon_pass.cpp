@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/techniques/photon_lattices/gpu/photon_pass.h"
 
+#include "engine/core/log.h"
 #include "engine/gpu/descriptors.h"
 #include "engine/gpu/storage_maker.h"
 #include "engine/techniques/photon_lattices/lattice_part.h"
@@ -120,6 +121,8 @@ public:
                                  m_buffers[k].handle);
             else
                 m_draws = false;
+        if (!m_draws)
+            logWarning("photons give no light: " + maker.error);
     }
 
     void record(const LightPassFrame& frame) override {

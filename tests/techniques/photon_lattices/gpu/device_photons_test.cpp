@@ -75,7 +75,8 @@ TEST_F(DevicePhotonsTest, BouncesPhotonsAsTheCpuDoes) {
         const Light shape = unitLight(scene.lights[0]);
         const std::uint32_t side = photonMapSide(shape, scene.bounds, 6000);
         GpuBounces gpu(*device, *viewport);
-        const std::vector<shared::GpuBounce> bounces = gpu.bounce(scene, shape, side);
+        const auto bounces = gpu.bounce(scene, shape, side);
+        ASSERT_TRUE(bounces);
         const TraceScene trace(scene);
         const PhotonScene photons{trace, scene, {.photons = 6000, .bounces = 1, .specular = 8}};
         Bounces found;
@@ -84,7 +85,7 @@ TEST_F(DevicePhotonsTest, BouncesPhotonsAsTheCpuDoes) {
         for (const PathStart& start : starts)
             brightest = std::max(brightest, start.flight.power.x);
         for (const PathStart& start : starts) {
-            const shared::GpuBounce& bounce = bounces.at(start.sample);
+            const shared::GpuBounce& bounce = bounces->at(start.sample);
             ++found.all;
             const auto scattered = scatter(*start.surface, start.flight.direction,
                                            start.flight.power, {0, start.sample}, kStartPairs);
