@@ -2,6 +2,7 @@
 #include "app/techniques/technique_program.h"
 
 #include "app/techniques/illuminance/illuminance_program.h"
+#include "app/techniques/photon_lattices/photon_program.h"
 #include "app/techniques/sparse_probes/sparse_probes_program.h"
 
 #include <algorithm>
@@ -10,7 +11,8 @@
 
 namespace limn {
 
-static constexpr std::array kPrograms = {&kIlluminanceProgram, &kSparseProbesProgram};
+static constexpr std::array kPrograms = {&kIlluminanceProgram, &kSparseProbesProgram,
+                                         &kPhotonProgram};
 
 std::span<const TechniqueProgram* const> techniquePrograms() {
     return kPrograms;

@@ -35,6 +35,20 @@ TEST_F(CommandLine, BenchErrorMeasuresGeneratedScenes) {
     expectRefusal("bake generated:x -o " + path("x.limnbake"), "generated:x");
 }
 
+TEST_F(CommandLine, BenchPhotonsMeasuresEachBlurBesideItsRivals) {
+    const std::string folder = path("photons");
+    const nlohmann::json rows =
+        json("bench photons cornell --photons 500 --runs 1 --json -o " + folder)["rows"];
+    ASSERT_EQ(rows.size(), 15u);
+    for (const nlohmann::json& row : rows) {
+        for (const char* key : {"update_ms", "lookup_ns", "jump", "mean"})
+            EXPECT_GT(row[key], 0) << key;
+        EXPECT_EQ(row["photons_ms"].is_null(), row["technique"] == "lpv");
+    }
+    EXPECT_GT(rows[0]["jump"], rows[3]["jump"]) << "a blur smooths";
+    EXPECT_TRUE(std::filesystem::exists(folder + "/photons.csv"));
+}
+
 #ifdef LIMN_HAS_VIEWPORT
 TEST_F(CommandLine, BenchFrameWritesARowPerNumberOfLightsAndDevice) {
     const std::string folder = path("frames");
