@@ -28,8 +28,8 @@ TEST_F(CommandLine, RenderLightsAnyTechniqueOnEitherDevice) {
     const std::string start = "render " + coarseCornell(path("coarse.limn")) +
                               " --light 'point pos=0,1,0.5 cd=1' --width 48 --height "
                               "32 --spp 4 --view irradiance --json --technique ";
-    for (const std::string technique :
-         {"lpv", "probes --set probes.count=64 --set probes.side=24", "sparse-probes"}) {
+    for (const std::string technique : {"lpv", "probes --set probes.count=64 --set probes.side=24",
+                                        "sparse-probes", "photon-lattices"}) {
         const nlohmann::json onCpu = json(start + technique + " --relight cpu -o " + cpu),
                              onGpu = json(start + technique + " --relight gpu -o " + gpu);
         EXPECT_EQ(onCpu["relight"]["device"], "cpu") << technique;
