@@ -66,8 +66,25 @@ GatheringLights gatheringLights(const VirtualLights& lights, const ChosenLights&
             from.normal[k][i] = lights.normal[k][light];
             from.flux[k][i] = lights.flux[k][light] * chosen.weight[i];
         }
+        const glm::dvec3 x(lights.positionOf(light));
+        const auto weight = double(chosen.weight[i]);
+        from.allWeight += weight;
+        from.allFirst += weight * x;
+        from.allSecond += weight * x * x;
     }
     return from;
+}
+
+/// Adds w = g epsilon of all lights, lit by them or not: sums of powers of x - c follow from those
+/// of x.
+static void addEpsilon(const GatheringLights& from, const GatheringCache& cache, ProxySums& sums) {
+    const glm::dvec3 c(cache.position);
+    const double epsilon = double(kProxyEpsilon);
+    sums.weight = float(double(sums.weight) + epsilon * from.allWeight);
+    sums.first = glm::vec3(glm::dvec3(sums.first) + epsilon * (from.allFirst - c * from.allWeight));
+    sums.second =
+        glm::vec3(glm::dvec3(sums.second) +
+                  epsilon * (from.allSecond - 2. * c * from.allFirst + c * c * from.allWeight));
 }
 
 CacheSums gatherLight(const GatheringLights& from, const GatheringCache& cache) {
@@ -78,25 +95,32 @@ CacheSums gatherLight(const GatheringLights& from, const GatheringCache& cache) 
         Lanes leaving{};
         for (std::size_t k = 0; k < 3; ++k) {
             way[k] = loadLanes(from.position[k], i, kSkinLanes) - cache.position[int(k)];
-            flux[k] = loadLanes(from.flux[k], i, kSkinLanes);
             leaving -= loadLanes(from.normal[k], i, kSkinLanes) * way[k];
         }
-        const Lanes area = loadLanes(from.area, i, kSkinLanes),
-                    weight = loadLanes(from.weight, i, kSkinLanes);
+        const Lanes cosines = positive(leaving) * positive(dot(way, cache.normal));
+        if (!anyAbove0(cosines))
+            continue;
+        for (std::size_t k = 0; k < 3; ++k)
+            flux[k] = loadLanes(from.flux[k], i, kSkinLanes);
+        const Lanes area = loadLanes(from.area, i, kSkinLanes);
         const Lanes r2 =
             notBelow(way[0] * way[0] + way[1] * way[1] + way[2] * way[2], kMinDistance2);
-        const Lanes transfer =
-            positive(leaving) * positive(dot(way, cache.normal)) / (r2 * (area + kGatherPi * r2));
-        diffuse.add(flux, transfer, weight * (kProxyEpsilon + area * transfer), way);
+        const Lanes transfer = cosines / (r2 * (area + kGatherPi * r2));
+        const Lanes factor = loadLanes(from.weight, i, kSkinLanes) * area * transfer;
+        diffuse.add(flux, transfer, factor, way);
         if (!glosses)
             continue;
         const Lanes along = positive(dot(way, cache.mirrored));
+        if (!anyAbove0(along))
+            continue;
         const Lanes lobe = powerOf(along * along / r2, cache.exponent / 2);
-        glossy.add(flux, transfer * lobe, weight * (kProxyEpsilon + area * transfer * lobe), way);
+        glossy.add(flux, transfer * lobe, factor * lobe, way);
     }
     CacheSums all{diffuse.sums(), {}};
+    addEpsilon(from, cache, all.diffuse);
     if (glosses) {
         all.glossy = glossy.sums();
+        addEpsilon(from, cache, all.glossy);
         all.glossy.light *= (cache.exponent + 2) / (2 * kGatherPi);
     }
     return all;

@@ -20,6 +20,10 @@ struct GatheringLights {
     std::array<std::vector<float>, 3> position, normal;
     std::array<std::vector<float>, 3> flux; ///< times the weight
     std::vector<float> area, weight;
+    /// Sums of weights, and of these times the first and second powers of the positions.
+    double allWeight = 0;
+    glm::dvec3 allFirst{0}, allSecond{0};
+
     std::size_t bytes() const { return 11 * sizeof(float) * weight.size(); }
 };
 GatheringLights gatheringLights(const VirtualLights& lights, const ChosenLights& chosen);

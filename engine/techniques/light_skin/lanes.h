@@ -28,6 +28,14 @@ inline Lanes positive(Lanes v) {
     return v > 0 ? v : Lanes{};
 }
 
+/// Of numbers >= 0.
+inline bool anyAbove0(Lanes v) {
+    float sum = 0;
+    for (std::size_t i = 0; i < kSkinLanes; ++i)
+        sum += v[i];
+    return sum > 0;
+}
+
 /// The sum in a fixed order.
 inline double sumOf(const Lanes& v) {
     double sum = 0;

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -245,7 +246,7 @@ TEST(SkinProxies, PeakAtTheMirroredPoint) {
     }
 }
 
-/// Caches at given places, for shade.
+/// Caches at given places.
 LightCaches cachesAt(const std::vector<glm::vec3>& places, const std::vector<glm::vec3>& normals,
                      const std::vector<float>& areas) {
     LightCaches caches;
@@ -279,6 +280,42 @@ TEST(SkinProxies, AreShadedByHalfWhereADiscAsLargeIsHalfASideOff) {
         cachesAt({glm::vec3(0), way * kDisc}, {{0, 0, 1}, -way}, {0.01f, area});
     proxy.deviation.y = kDistance;
     EXPECT_EQ(ShadingDiscs(facing).shadeOf(0, proxy), 0);
+}
+
+// (1 - d / d_max) sqrt(n . n_c), d_max being twice the distance of the farthest where there are
+// fewer than 16.
+TEST(SkinProxies, AreWeightedByDistanceAndDirection) {
+    const glm::vec3 up(0, 0, 1), tilted(0.6f, 0, 0.8f);
+    std::vector<glm::vec3> places = {{1, 0, 0}, {0, 2, 0}, {-3, 0, 0}, {0.5f, 0, 0}};
+    std::vector<glm::vec3> normals = {up, tilted, up, -up};
+    const LightCaches few = cachesAt(places, normals, std::vector<float>(4, 1));
+    const std::vector<std::uint32_t> list = {0, 1, 2, 3};
+    const SkinWeights four = skinWeights(few, list, glm::vec3(0), up);
+    ASSERT_EQ(four.count, 3U) << "one faces away";
+    const double w[] = {1 - 1 / 6., (1 - 2 / 6.) * std::sqrt(0.8), 1 - 3 / 6.};
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NEAR(double(four.weight[i]), w[i] / (w[0] + w[1] + w[2]), 1e-6);
+    for (std::size_t k = places.size(); k < 16; ++k) {
+        places.emplace_back(0, 0, -4);
+        normals.push_back(up);
+    }
+    std::vector<std::uint32_t> all(16);
+    std::iota(all.begin(), all.end(), 0U);
+    const SkinWeights full =
+        skinWeights(cachesAt(places, normals, std::vector<float>(16, 1)), all, glm::vec3(0), up);
+    ASSERT_EQ(full.count, 3U) << "the farthest count for nothing";
+    EXPECT_NEAR(full.weight[0] / full.weight[2], (1 - 1 / 4.f) / (1 - 3 / 4.f), 1e-5f);
+    // Ways from the eye, mirrored at both places, in the place of normals.
+    const glm::vec3 eye(0, 0, 5);
+    const SkinWeights glossy = glossyWeights(few, list, glm::vec3(0), up, eye);
+    const auto mirrored = [&](std::size_t c) {
+        return glm::reflect(glm::normalize(few.position[c] - eye), few.normal[c]);
+    };
+    const double g0 = w[0] * std::sqrt(double(glm::dot(up, mirrored(0)))),
+                 g2 = w[2] * std::sqrt(double(glm::dot(up, mirrored(2))));
+    ASSERT_EQ(glossy.cache[0], 0U);
+    const std::size_t third = glossy.cache[1] == 2 ? 1 : 2;
+    EXPECT_NEAR(double(glossy.weight[0] / glossy.weight[third]), g0 / g2, 1e-5);
 }
 
 // The grid of candidates finds what a loop over all caches finds.
