@@ -160,30 +160,63 @@ TEST(SkinRooms, LeakThroughAWallAsFarAsDiscsLeaveGaps) {
     }
 }
 
-// An object before a lit wall throws a shadow on what lies behind it.
+/// A lit ceiling, and a black box below it or none.
+Scene litCeiling(bool blocked, double spacing, double vals) {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.5f)));
+    b.addMaterial(simple::lambert(glm::vec3(0)));
+    b.add(simple::quad({-2, 3, -2}, {4, 0, 0}, {0, 0, 4})); // faces down
+    b.add(simple::quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0})); // faces up
+    if (blocked)
+        b.add(simple::box({-0.6f, 1, -0.6f}, {0.6f, 1.2f, 0.6f}, false, 1));
+    b.scene.lights = {{.kind = LightKind::Spot,
+                       .position = {0, 1.5f, 0},
+                       .direction = {0, 1, 0},
+                       .strength = 10,
+                       .outerAngle = 0.5f}};
+    b.scene.technique.settings = {{"light-skin.spacing", spacing}, {"light-skin.vals", vals}};
+    return b.build();
+}
+
+/// Irradiance of a floor's point from the ceiling's texels that it sees, as a share of all.
+double seenShare(const Scene& scene, glm::vec3 p) {
+    const TraceScene trace(scene);
+    const VirtualLights lights = castVirtualLights(trace, scene, scene.lights[0], 64);
+    const GatheringCache cache{.position = p, .normal = {0, 1, 0}};
+    ChosenLights seen;
+    for (std::uint32_t i = 0; i < lights.size(); ++i)
+        if (!trace.blocked(trace.clearOf(p, cache.normal),
+                           trace.clearOf(lights.positionOf(i), lights.normalOf(i)))) {
+            seen.light.push_back(i);
+            seen.weight.push_back(1);
+        }
+    return double(gatherLight(gatheringLights(lights, seen), cache).diffuse.light.x /
+                  gatherLight(gatheringLights(lights, allLights(lights)), cache).diffuse.light.x);
+}
+
+// An object before a lit wall throws a shadow on what lies behind it; how wide depends on the
+// caches.
 TEST(SkinRooms, LieInTheShadeOfObjects) {
-    const auto lit = [](bool blocked) {
-        simple::SceneBuilder b;
-        b.addMaterial(simple::lambert(glm::vec3(0.5f)));
-        b.addMaterial(simple::lambert(glm::vec3(0)));
-        b.add(simple::quad({-2, 3, -2}, {4, 0, 0}, {0, 0, 4})); // faces down
-        b.add(simple::quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0})); // faces up
-        if (blocked)
-            b.add(simple::box({-0.6f, 1, -0.6f}, {0.6f, 1.2f, 0.6f}, false, 1));
-        b.scene.lights = {{.kind = LightKind::Spot,
-                           .position = {0, 1.5f, 0},
-                           .direction = {0, 1, 0},
-                           .strength = 10,
-                           .outerAngle = 0.5f}};
-        b.scene.technique.settings = {{"light-skin.spacing", 4}, {"light-skin.all", 1}};
-        LitBySkin room(b.build());
-        room.update();
-        return room.irradiance({0, 0, 0}, {0, 1, 0}, 1).x;
-    };
-    const float open = lit(false), blocked = lit(true);
-    std::printf("below a box: %.3f of the light without it\n", double(blocked / open));
-    EXPECT_GT(open, 0);
-    EXPECT_LT(blocked, 0.2f * open);
+    for (const double spacing : {2., 4., 8.})
+        for (const double vals : {128., 2048.}) {
+            LitBySkin open(litCeiling(false, spacing, vals)),
+                blocked(litCeiling(true, spacing, vals));
+            open.update();
+            blocked.update();
+            std::printf("spacing %g %%, N = %g:", spacing, vals);
+            for (const float x : {0.f, 0.7f, 1.f, 1.3f, 1.8f}) {
+                const auto light = [&](const LitBySkin& lit) {
+                    return double(lit.irradiance({x, 0, 0}, {0, 1, 0}, 1).x);
+                };
+                const double share = light(blocked) / light(open);
+                std::printf("  %.2f (%.2f)", share, seenShare(blocked.scene, {x, 0, 0}));
+                if (x == 0 && spacing < 8) {
+                    EXPECT_LT(share, 0.2) << "the middle of the shadow";
+                }
+                EXPECT_LE(share, 1.05);
+            }
+            std::printf("\n");
+        }
 }
 
 } // namespace
