@@ -46,6 +46,12 @@ void ensure(gpu::Device& device, gpu::Buffer& buffer, std::size_t count, std::si
                    .name = name}};
 }
 
+/// Texels of the raster, views that are not drawn among them.
+std::size_t texelsOf(const std::vector<DrawnRsmView>& views) {
+    const std::size_t side = views[0].view.size;
+    return (views.back().index + std::size_t(1)) * side * side;
+}
+
 template <class T>
 gpu::Buffer uploadedItems(gpu::Device& device, const std::vector<T>& items, const char* name) {
     gpu::Uploader uploader(device);
@@ -102,7 +108,11 @@ void GpuSkinLights::bindBuffers(const MappedLights* lights) {
 }
 
 MappedLights GpuSkinLights::cast(const Light& light, const Bounds& bounds, std::uint32_t size) {
-    const std::vector<DrawnRsmView> views = drawnRsmViews(light, bounds, size);
+    const std::size_t most =
+        m_device.properties.limits.maxStorageBufferRange / sizeof(shared::GpuVirtualLight);
+    std::vector<DrawnRsmView> views = drawnRsmViews(light, bounds, size);
+    while (!views.empty() && texelsOf(views) > most && size > 1)
+        views = drawnRsmViews(light, bounds, size /= 2);
     if (views.empty())
         return {};
     const std::uint32_t side = views[0].view.size;

@@ -44,7 +44,8 @@ public:
     static Result<std::unique_ptr<GpuSkinLights>> create(gpu::Device& device, Viewport& viewport);
 
     /// Draws the map of a light, as unitLight() makes it, of the scene that the viewport shows.
-    /// `size`: as for castRsm(). Waits for the device, as all of these do.
+    /// `size`: as for castRsm(); it is halved until the device can bind all texels. Waits for the
+    /// device, as all of these do.
     MappedLights cast(const Light& light, const Bounds& bounds, std::uint32_t size);
 
     /// Draws the view at its size, or at 1024 rows where it has none, and finds samples in it.
