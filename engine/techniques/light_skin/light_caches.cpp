@@ -48,26 +48,55 @@ std::size_t LightCaches::find(const Query& query,
     return count;
 }
 
-float skinDiagonal(const Scene& scene) {
-    const float diagonal = glm::length(staticBounds(scene).size());
-    return diagonal > 0 ? diagonal : glm::length(scene.bounds.size());
-}
-
-float skinSpacing(const Scene& scene, float share) {
-    double area = 0;
-    for (const Instance& instance : scene.instances)
-        area += worldArea(scene, instance) * (isTwoSided(scene.materialOf(instance)) ? 2 : 1);
-    // A cube of half the spacing holds a quarter of its square.
-    const double least = 2 * std::sqrt(area / kMostCubes);
-    return std::max(share * skinDiagonal(scene), float(least));
-}
-
 /// The longest axis of the instance, as a share of that of its mesh.
 static float scaleOf(const Instance& instance) {
     float scale = 0;
     for (int k = 0; k < 3; ++k)
         scale = std::max(scale, glm::length(glm::vec3(instance.toWorld[k])));
     return scale;
+}
+
+const MeshSkins::Extent& MeshSkins::extentOf(const Scene& scene, std::uint32_t number) {
+    const auto [place, added] = m_extents.try_emplace(number);
+    if (added) {
+        Extent& extent = place->second;
+        const Mesh& mesh = scene.assets->meshes[number];
+        for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+            const std::array<std::uint32_t, 3> k = mesh.triangle(t);
+            extent.area += double(triangleArea(mesh, t));
+            for (std::size_t i = 0; i < 3; ++i)
+                extent.perimeter +=
+                    double(glm::distance(mesh.positions[k[i]], mesh.positions[k[(i + 1) % 3]]));
+        }
+        if (!mesh.positions.empty())
+            extent.diagonal = glm::length(boundsOf(mesh.positions).size());
+    }
+    return place->second;
+}
+
+float MeshSkins::diagonalOf(const Scene& scene) {
+    float diagonal = glm::length(staticBounds(scene).size());
+    for (const Instance& instance : scene.instances)
+        if (instance.dynamic)
+            diagonal =
+                std::max(diagonal, extentOf(scene, instance.mesh).diagonal * scaleOf(instance));
+    return diagonal;
+}
+
+/// `least`, or more where there would be too many cubes: a triangle meets about perimeter / edge +
+/// area / edge^2 of them, besides one.
+float MeshSkins::spacingOf(const Scene& scene, float least) {
+    double area = 0, perimeter = 0;
+    for (const Instance& instance : scene.instances) {
+        const Extent& extent = extentOf(scene, instance.mesh);
+        const double scale = double(scaleOf(instance));
+        const double sides = isTwoSided(scene.materialOf(instance)) ? 2 : 1;
+        area += sides * extent.area * scale * scale;
+        perimeter += sides * extent.perimeter * scale;
+    }
+    const double edge =
+        (perimeter + std::sqrt(perimeter * perimeter + 4 * kMostCubes * area)) / (2 * kMostCubes);
+    return std::max(least, float(2 * edge));
 }
 
 std::optional<MeshSkins::Key> MeshSkins::keyOf(const Scene& scene, const Instance& instance,
@@ -80,9 +109,6 @@ std::optional<MeshSkins::Key> MeshSkins::keyOf(const Scene& scene, const Instanc
 }
 
 void MeshSkins::makeMissing(const Scene& scene, const SkinLayout& layout, float spacing) {
-    if (m_assets != scene.assets)
-        m_skins.clear();
-    m_assets = scene.assets;
     Skins used;
     std::vector<Skins::value_type*> missing;
     for (const Instance& instance : scene.instances) {
@@ -109,7 +135,13 @@ void MeshSkins::makeMissing(const Scene& scene, const SkinLayout& layout, float 
 }
 
 LightCaches MeshSkins::place(const Scene& scene, const SkinLayout& layout) {
-    LightCaches caches{.spacing = skinSpacing(scene, layout.spacing)};
+    if (m_assets != scene.assets) {
+        m_skins.clear();
+        m_extents.clear();
+    }
+    m_assets = scene.assets;
+    LightCaches caches{.diagonal = diagonalOf(scene)};
+    caches.spacing = spacingOf(scene, layout.spacing * caches.diagonal);
     makeMissing(scene, layout, caches.spacing);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];

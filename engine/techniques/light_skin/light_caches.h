@@ -29,6 +29,7 @@ struct LightCaches {
     };
     std::vector<Placed> instances; ///< by number of the instance
     float spacing = 1;             ///< largest distance of a surface point from a cache [m]
+    float diagonal = 1;            ///< of the scene, which `spacing` is a share of [m]
 
     std::vector<glm::vec3> position; ///< [m]
     std::vector<glm::vec3> normal;   ///< unit
@@ -59,12 +60,8 @@ struct SkinLayout {
     bool operator==(const SkinLayout&) const = default;
 };
 
-/// The diagonal of the box of the static objects, or of all where none is static [m].
-float skinDiagonal(const Scene& scene);
-
-/// The largest distance of a surface point from a cache [m]: as asked, or more where there would be
-/// more than kMostCubes cubes.
-float skinSpacing(const Scene& scene, float share);
+/// Most cubes that the caches of a scene are made from, besides one for each triangle. Spacing
+/// grows where there would be more.
 inline constexpr double kMostCubes = 1 << 18;
 
 /// Caches of meshes, kept by mesh, spacing and sides, in object space. They do not change where
@@ -72,7 +69,8 @@ inline constexpr double kMostCubes = 1 << 18;
 class MeshSkins {
 public:
     /// The caches of all objects of a scene, with those of meshes made where they are missing.
-    /// Forgets those that it does not need.
+    /// Forgets those that it does not need. The diagonal is that of the box of all static objects,
+    /// or of the largest dynamic one where this is larger, so that no movement changes it.
     LightCaches place(const Scene& scene, const SkinLayout& layout);
 
     /// Number of meshes whose caches place() made last.
@@ -83,12 +81,22 @@ private:
     using Key = std::tuple<std::uint32_t, float, float, bool, bool>;
     using Skins = std::map<Key, std::shared_ptr<const MeshSkin>>;
 
+    /// Sizes of a mesh in object space.
+    struct Extent {
+        double area = 0, perimeter = 0; ///< of all its triangles [m^2], [m]
+        float diagonal = 0;             ///< of its box
+    };
+    const Extent& extentOf(const Scene& scene, std::uint32_t mesh);
+    float diagonalOf(const Scene& scene);
+    float spacingOf(const Scene& scene, float least);
+
     /// None for an instance without extent.
     static std::optional<Key> keyOf(const Scene& scene, const Instance& instance,
                                     const SkinLayout& layout, float spacing);
     void makeMissing(const Scene& scene, const SkinLayout& layout, float spacing);
 
     std::shared_ptr<const Assets> m_assets;
+    std::map<std::uint32_t, Extent> m_extents; ///< by mesh
     Skins m_skins;
     std::uint32_t m_made = 0;
 };

@@ -21,7 +21,6 @@ bool SkinObjects::follow(const Scene& scene, const SkinInputs& now, SkinCost& co
         m_discs.reset();
         m_caches = std::make_shared<const LightCaches>(m_skins.place(scene, layout));
         m_discs.emplace(*m_caches);
-        m_diagonal = skinDiagonal(scene);
         cost.meshes += m_skins.made();
     }
     const glm::vec3* eye = now.eye();

@@ -65,7 +65,6 @@ public:
     const std::shared_ptr<const LightCaches>& caches() const { return m_caches; }
     const std::vector<float>& exponents() const { return m_exponents; }
     const std::vector<CacheProxies>& proxies() const { return m_proxies; }
-    float diagonal() const { return m_diagonal; }
 
     // Increase whenever that changes; 0: not yet.
     std::uint64_t surfaces() const { return m_surfaces.version; } ///< what maps and caches are of
@@ -98,7 +97,6 @@ private:
     std::shared_ptr<const LightCaches> m_caches;
     std::optional<ShadingDiscs> m_discs;
     std::vector<float> m_exponents; ///< empty where nothing glossy is asked for
-    float m_diagonal = 0;
     std::vector<CacheProxies> m_proxies;
     Versioned<SurfaceKey> m_surfaces;
     Versioned<GatheringKey> m_gathering;

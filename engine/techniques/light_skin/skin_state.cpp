@@ -33,7 +33,7 @@ void SkinState::choose(const SkinInputs& now, SkinLight& light, SkinCost& cost) 
     const bool all = s.all || light.lights.size() <= s.vals;
     if (!all && light.importanceOf != m_sampled.version) {
         light.importance =
-            importances(light.lights, m_samples, nearestSample(m_objects.diagonal()));
+            importances(light.lights, m_samples, nearestSample(m_objects.caches()->diagonal));
         light.importanceOf = m_sampled.version;
     }
     cost.importanceMs += clock.lap();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/core/parallel.h"
 #include "engine/field/field_reading.h"
+#include "engine/gallery/hostile_scene.h"
 #include "engine/lighting/explanation.h"
+#include "engine/lightmap/texel_points.h"
+#include "tests/core/sweep.h"
 #include "tests/techniques/light_skin/lit_by_skin.h"
 #include "tests/trace/simple_scene.h"
 
@@ -10,6 +13,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -324,6 +328,49 @@ TEST(LightSkin, IsFiniteForBlackHugeAndBuriedLights) {
     empty.bounds = {};
     LitBySkin lit(empty);
     EXPECT_TRUE(lit.update().whole);
+}
+
+// Needles, holes, buried lights, a million triangles, objects far larger than all that is static.
+TEST(LightSkin, IsFiniteInHostileScenes) {
+    const std::uint64_t seeds = kSanitized ? 15 : 60;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        const HostileScene made = hostileScene(seed);
+        SCOPED_TRACE(std::to_string(seed) + " " + made.description);
+        Scene scene = flatten(made.document, made.assets);
+        scene.technique = {"light-skin",
+                           {{"light-skin.map_size", 8},
+                            {"light-skin.samples", 16},
+                            {"light-skin.vals", 32},
+                            {"light-skin.spacing", 10}}};
+        LitBySkin lit(scene);
+        const Viewpoint view{.camera = chooseCamera(scene, {}), .aspect = 1, .size = {16, 16}};
+        EXPECT_TRUE(lit.update(&view).whole);
+        for (const glm::vec3 flux : lit.part().light().flux)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_TRUE(std::isfinite(flux[c]) && flux[c] >= 0);
+        for (std::uint32_t i = 0; i < scene.instances.size(); i += 1 + i / 10) {
+            const Mesh& mesh = scene.meshOf(scene.instances[i]);
+            if (mesh.triangleCount() == 0)
+                continue;
+            const WorldPoint at = worldPoint(scene, scene.instances[i], {0, glm::vec2(1 / 3.f)});
+            const glm::vec3 e = lit.irradiance(at.position, at.normal, i);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_TRUE(std::isfinite(e[c]) && e[c] >= 0) << i;
+        }
+    }
+}
+
+// A needle a million times as long as all that is static moves by.
+TEST(LightSkin, IsMadeInAMomentForDynamicObjectsLargerThanAllThatIsStatic) {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.5f)));
+    b.add(simple::box(glm::vec3(0), glm::vec3(0.1f), true));
+    b.add(simple::quad({0, 1, 0}, {1e5f, 0, 0}, {0, 0.001f, 0}), glm::mat4(1), true);
+    b.scene.lights = {{.kind = LightKind::Directional, .strength = 1}};
+    b.scene.technique.settings = {{"light-skin.map_size", 8}};
+    LitBySkin lit(b.build());
+    EXPECT_TRUE(lit.update().whole);
+    EXPECT_LT(counterOf(lit.update(), "caches"), 3e5);
 }
 
 } // namespace

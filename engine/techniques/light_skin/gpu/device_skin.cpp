@@ -98,7 +98,7 @@ bool DeviceSkin::gather(const SkinInputs& now, const Progress& progress, Cost& c
                               {.count = s.vals,
                                .defence = s.defence,
                                .all = s.all,
-                               .nearest = nearestSample(m_objects.diagonal()),
+                               .nearest = nearestSample(m_objects.caches()->diagonal),
                                .eye = now.eye()},
                               kept.sums, progress))
             return false;
