@@ -27,6 +27,7 @@ constexpr std::size_t kMostProxies = 4000;        ///< when none is picked
 constexpr float kDotScale = 0.1f;                 ///< radius of dots over the caches' spacing
 constexpr std::uint32_t kWayDots = 24;            ///< from a cache to its proxy
 constexpr std::uint32_t kSphereDots = 64;         ///< on a proxy's sphere
+constexpr std::size_t kWeightsOverlay = 3;        ///< in kSkinOverlays
 const glm::vec3 kDiffuseColor(0.2f, 0.8f, 1), kGlossyColor(1, 0.85f, 0.2f),
     kShaderColor(0.95f, 0.2f, 0.1f), kPickColor(1, 1, 1), kSampleColor(0.3f, 1, 0.3f);
 
@@ -210,6 +211,27 @@ void addShown(const SkinLight& light, LitSkin& lit) {
     lit.chosen += light.chosen.light.size();
 }
 
+/// Normal of the side that was hit.
+glm::vec3 sideOf(const Hit& hit) {
+    return hit.frontFace ? hit.geometricNormal : -hit.geometricNormal;
+}
+
+/// The caches in the list of the surface that was hit.
+std::vector<std::uint32_t> listAt(const LightCaches& caches, const Scene& scene, const Hit& hit) {
+    if (hit.instance >= scene.instances.size())
+        return {};
+    std::array<std::uint32_t, NearestCaches::kLength> list;
+    const std::size_t count = caches.find({.instance = hit.instance,
+                                           .triangle = hit.triangle,
+                                           .u = hit.u,
+                                           .v = hit.v,
+                                           .position = hit.position,
+                                           .normal = sideOf(hit),
+                                           .mesh = &scene.meshOf(scene.instances[hit.instance])},
+                                          list);
+    return {list.begin(), list.begin() + count};
+}
+
 } // namespace
 
 LitSkin litSkinOf(const SkinState& state, const SkinInputs& inputs) {
@@ -245,7 +267,7 @@ OverlayData SkinSnapshot::overlay(const OverlayRequest& request, const Scene& sc
         return importanceOverlay(m_lit);
     case 2:
         return proxyOverlay(m_lit, request.pick);
-    case 3:
+    case kWeightsOverlay:
         return request.pick < pickCount()
                    ? weightOverlay(m_lit, weightsAt(*m_lit.caches, scene, request.pick))
                    : OverlayData{};
@@ -257,23 +279,31 @@ OverlayData SkinSnapshot::overlay(const OverlayRequest& request, const Scene& sc
 }
 
 std::optional<std::uint32_t> SkinSnapshot::pickAt(const Scene& scene, const Hit& hit) const {
-    if (hit.instance >= scene.instances.size())
+    const std::vector<std::uint32_t> list = listAt(*m_lit.caches, scene, hit);
+    if (list.empty())
         return {};
-    std::array<std::uint32_t, NearestCaches::kLength> list;
-    const std::size_t count =
-        m_lit.caches->find({.instance = hit.instance,
-                            .triangle = hit.triangle,
-                            .u = hit.u,
-                            .v = hit.v,
-                            .position = hit.position,
-                            .normal = hit.frontFace ? hit.geometricNormal : -hit.geometricNormal,
-                            .mesh = &scene.meshOf(scene.instances[hit.instance])},
-                           list);
-    if (count == 0)
-        return {};
-    return *std::ranges::min_element(std::span(list).first(count), {}, [&](std::uint32_t c) {
+    return *std::ranges::min_element(list, {}, [&](std::uint32_t c) {
         return glm::distance(m_lit.caches->position[c], hit.position);
     });
+}
+
+std::vector<OverlayLine> SkinSnapshot::describeAt(const OverlayRequest& request, const Scene& scene,
+                                                  const Hit& hit,
+                                                  const LightSnapshot* light) const {
+    if (request.kind != &kSkinOverlays[kWeightsOverlay])
+        return LightSnapshot::describeAt(request, scene, hit, light);
+    const LightCaches& caches = *m_lit.caches;
+    const SkinWeights weights =
+        skinWeights(caches, listAt(caches, scene, hit), hit.position, sideOf(hit));
+    std::vector<OverlayLine> lines = {
+        {OverlayLine::Style::Heading, fmt::format("Lit by {} caches", weights.count)}};
+    for (std::size_t i = 0; i < weights.count; ++i)
+        lines.push_back(
+            {OverlayLine::Style::Plain,
+             fmt::format("{:.1f} % of cache {}, {:.3g} m away", double(100 * weights.weight[i]),
+                         weights.cache[i],
+                         glm::distance(caches.position[weights.cache[i]], hit.position))});
+    return lines;
 }
 
 std::optional<std::uint32_t> SkinSnapshot::nearestPick(const OverlaySource& other,

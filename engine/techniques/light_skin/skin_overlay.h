@@ -82,6 +82,9 @@ public:
     std::optional<std::uint32_t> nearestPick(const OverlaySource& other,
                                              std::uint32_t pick) const override;
     std::vector<OverlayLine> describePick(const Scene& scene, std::uint32_t pick) const override;
+    /// Of "skin-weights": the caches that light the surface there.
+    std::vector<OverlayLine> describeAt(const OverlayRequest& request, const Scene& scene,
+                                        const Hit& hit, const LightSnapshot* light) const override;
 
 private:
     LitSkin m_lit;
