@@ -6,60 +6,65 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/common.hpp>
-#include <glm/vector_relational.hpp>
-
 namespace limn {
 
 namespace {
 
-std::uint8_t toByte(float opacity) {
-    return std::uint8_t(opacity * 255 + 0.5f);
+std::uint32_t toByte(float opacity) {
+    return std::uint32_t(opacity * 255 + 0.5f);
 }
 
-/// Opacities of a level, whether it consists of bits or of bytes.
-struct LevelView {
-    const CellBits* bits;
-    const VoxelLevel* bytes;
-    std::size_t side;
+/// Eight cells whose opacities become that of one: of bit k & 1, k >> 1 & 1 and k >> 2 along the
+/// axes.
+using Children = float[8];
 
-    float operator()(std::size_t x, std::size_t y, std::size_t z) const {
-        const std::size_t cell = (z * side + y) * side + x;
-        return bits ? (bits->test(cell) ? 1.f : 0.f) : float((*bytes)[cell]) * (1 / 255.f);
-    }
-};
+float meanOf(const Children& child) {
+    float sum = 0;
+    for (const float c : child)
+        sum += c / 8;
+    return sum;
+}
 
-/// The next level of `fine`. `axis`: that of a chain of VoxelVolume::along; -1: the mean.
-VoxelLevel coarser(const LevelView& fine, int axis) {
-    const std::size_t side = fine.side / 2;
-    VoxelLevel level(side * side * side);
-    parallelRanges(side, 1, [&](std::size_t begin, std::size_t end) {
+float alongAxis(const Children& child, int axis) {
+    const std::size_t behind = std::size_t(1) << axis;
+    float sum = 0;
+    for (std::size_t k = 0; k < 8; ++k)
+        if ((k & behind) == 0)
+            sum += (1 - (1 - child[k]) * (1 - child[k | behind])) / 4;
+    return sum;
+}
+
+/// The level with half of `side`. opacity(cell, which) is that of a cell of the finer one.
+template <class Opacity>
+VoxelLevel halved(std::size_t side, const Opacity& opacity) {
+    const std::size_t half = side / 2;
+    VoxelLevel level(half * half * half);
+    parallelRanges(half, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t z = begin; z < end; ++z)
-            for (std::size_t y = 0; y < side; ++y)
-                for (std::size_t x = 0; x < side; ++x) {
-                    float child[8];
-                    for (std::size_t k = 0; k < 8; ++k)
-                        child[k] = fine(2 * x + (k & 1), 2 * y + (k >> 1 & 1), 2 * z + (k >> 2));
-                    float sum = 0;
-                    for (std::size_t k = 0; k < 8; ++k) {
-                        const std::size_t behind = axis < 0 ? 0 : std::size_t(1) << axis;
-                        if (axis < 0)
-                            sum += child[k] / 8;
-                        else if ((k & behind) == 0)
-                            sum += (1 - (1 - child[k]) * (1 - child[k | behind])) / 4;
+            for (std::size_t y = 0; y < half; ++y)
+                for (std::size_t x = 0; x < half; ++x) {
+                    std::uint32_t cell = 0;
+                    for (int which = 0; which < 4; ++which) {
+                        Children child;
+                        for (std::size_t k = 0; k < 8; ++k)
+                            child[k] =
+                                opacity(((2 * z + (k >> 2)) * side + 2 * y + (k >> 1 & 1)) * side +
+                                            2 * x + (k & 1),
+                                        which);
+                        cell |=
+                            toByte(which == kMeanOpacity ? meanOf(child) : alongAxis(child, which))
+                            << (8 * which);
                     }
-                    level[(z * side + y) * side + x] = toByte(sum);
+                    level[(z * half + y) * half + x] = cell;
                 }
     });
     return level;
 }
 
-std::vector<VoxelLevel> chainOf(const CellBits& solid, std::size_t side, int axis) {
-    std::vector<VoxelLevel> chain;
-    for (std::size_t s = side; s > 1; s /= 2)
-        chain.push_back(coarser(
-            {chain.empty() ? &solid : nullptr, chain.empty() ? nullptr : &chain.back(), s}, axis));
-    return chain;
+/// std::floor() of what an int can hold; the standard one is a call.
+int lowerInteger(float x) {
+    const int towardsZero = int(x);
+    return towardsZero - (x < float(towardsZero) ? 1 : 0);
 }
 
 /// Lowers the distances of the cells in x of one row to those of a row beside it, plus 1.
@@ -71,8 +76,8 @@ void nearer(std::uint8_t* row, const std::uint8_t* beside, std::size_t side) {
 
 /// Two passes over all rows, each of which hands distances on to the rows that follow. Borgefors.
 /// Distance Transformations in Digital Images. 1986
-VoxelLevel distances(const CellBits& solid, std::size_t side) {
-    VoxelLevel distance(side * side * side, 255);
+std::vector<std::uint8_t> distances(const CellBits& solid, std::size_t side) {
+    std::vector<std::uint8_t> distance(side * side * side, 255);
     for (std::size_t c = 0; c < distance.size(); ++c)
         if (solid.test(c))
             distance[c] = 0;
@@ -109,9 +114,8 @@ VoxelLevel distances(const CellBits& solid, std::size_t side) {
 
 std::size_t VoxelVolume::bytes() const {
     std::size_t sum = solid.words.size() * sizeof(std::uint64_t) + distance.size();
-    for (const std::vector<VoxelLevel>* chain : {&mean, &along[0], &along[1], &along[2]})
-        for (const VoxelLevel& level : *chain)
-            sum += level.size();
+    for (const VoxelLevel& level : coarse)
+        sum += level.size() * sizeof(std::uint32_t);
     return sum;
 }
 
@@ -132,47 +136,52 @@ VoxelVolume voxelsOf(const Scene& scene, std::uint32_t side) {
 
 void averageVoxels(VoxelVolume& volume) {
     volume.distance = distances(volume.solid, volume.side());
-    volume.mean = chainOf(volume.solid, volume.side(), -1);
-    for (int axis = 0; axis < 3; ++axis)
-        volume.along[std::size_t(axis)] = chainOf(volume.solid, volume.side(), axis);
+    volume.coarse.clear();
+    for (std::size_t side = volume.side(); side > 1; side /= 2)
+        volume.coarse.push_back(
+            volume.coarse.empty()
+                ? halved(side, [&](std::size_t c, int) { return volume.solid.test(c) ? 1.f : 0.f; })
+                : halved(side, [&, &fine = volume.coarse.back()](std::size_t c, int which) {
+                      return float(opacityByte(fine[c], which)) * (1 / 255.f);
+                  }));
 }
 
 bool isEmptyAbout(const VoxelVolume& volume, glm::vec3 p, float reach) {
     const int side = int(volume.side());
-    const glm::ivec3 c = glm::clamp(glm::ivec3(glm::floor(p)), glm::ivec3(0), glm::ivec3(side - 1));
-    // The cell's own extent, and how far p lies outside the cube.
-    const glm::vec3 outside = glm::abs(p - (glm::vec3(c) + 0.5f));
-    const float away = std::max({outside.x, outside.y, outside.z});
-    const std::size_t cell =
-        (std::size_t(c.z) * std::size_t(side) + std::size_t(c.y)) * std::size_t(side) +
-        std::size_t(c.x);
-    return float(volume.distance[cell]) - 0.5f - away >= reach;
+    int cell[3];
+    float away = 0; // of p from the middle of the nearest cell in the cube
+    for (int axis = 0; axis < 3; ++axis) {
+        cell[axis] = std::clamp(lowerInteger(p[axis]), 0, side - 1);
+        away = std::max(away, std::abs(p[axis] - (float(cell[axis]) + 0.5f)));
+    }
+    const auto index = std::size_t((cell[2] * side + cell[1]) * side + cell[0]);
+    return float(volume.distance[index]) - 0.5f - away >= reach;
 }
 
 float opacityAt(const VoxelVolume& volume, std::uint32_t level, glm::vec3 p, glm::vec3 weight) {
     const int side = int(volume.side() >> level);
     const glm::vec3 at = p / float(1U << level) - 0.5f;
-    const glm::vec3 base = glm::floor(at), f = at - base;
-    const glm::ivec3 c(base);
+    const glm::ivec3 c(lowerInteger(at.x), lowerInteger(at.y), lowerInteger(at.z));
+    const float f[3] = {at.x - float(c.x), at.y - float(c.y), at.z - float(c.z)};
     const bool directional = weight != glm::vec3(0);
     float sum = 0;
     for (int k = 0; k < 8; ++k) {
-        const glm::ivec3 step(k & 1, k >> 1 & 1, k >> 2), cell = c + step;
+        const int x = c.x + (k & 1), y = c.y + (k >> 1 & 1), z = c.z + (k >> 2);
         // Negative ones are above all sides as unsigned numbers.
-        if (glm::any(glm::greaterThanEqual(glm::uvec3(cell), glm::uvec3(std::uint32_t(side)))))
+        if (std::max({unsigned(x), unsigned(y), unsigned(z)}) >= unsigned(side))
             continue;
-        const glm::vec3 w = glm::mix(1.f - f, f, glm::vec3(step));
-        const std::size_t i = std::size_t((cell.z * side + cell.y) * side + cell.x);
+        const auto i = std::size_t((z * side + y) * side + x);
         float opacity = 0;
-        if (level == 0)
+        if (level == 0) {
             opacity = volume.distance[i] == 0 ? 255.f : 0.f;
-        else if (directional)
-            opacity = weight.x * float(volume.along[0][level - 1][i]) +
-                      weight.y * float(volume.along[1][level - 1][i]) +
-                      weight.z * float(volume.along[2][level - 1][i]);
-        else
-            opacity = float(volume.mean[level - 1][i]);
-        sum += w.x * w.y * w.z * opacity;
+        } else if (const std::uint32_t cell = volume.coarse[level - 1][i]; directional) {
+            opacity = weight.x * float(cell & 255) + weight.y * float(cell >> 8 & 255) +
+                      weight.z * float(cell >> 16 & 255);
+        } else {
+            opacity = float(cell >> 24);
+        }
+        sum += (k & 1 ? f[0] : 1 - f[0]) * (k & 2 ? f[1] : 1 - f[1]) * (k & 4 ? f[2] : 1 - f[2]) *
+               opacity;
     }
     return sum * (1 / 255.f);
 }

@@ -5,34 +5,38 @@
 #include "engine/scene/scene.h"
 #include "engine/techniques/radiance_volumes/touched_cells.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace limn {
 
-/// Opacities of the cells of one level, in 255ths, x fastest.
-using VoxelLevel = std::vector<std::uint8_t>;
+/// Opacities of the cells of one level, x fastest: bytes along x, y and z and of the mean, from the
+/// lowest, in 255ths.
+using VoxelLevel = std::vector<std::uint32_t>;
+
+/// Number of the mean's byte; along an axis: the axis.
+inline constexpr int kMeanOpacity = 3;
+inline std::uint32_t opacityByte(std::uint32_t cell, int which) {
+    return cell >> (8 * which) & 255;
+}
 
 /// The solid voxels of a scene in a cube over it, and their averages. Level k has 2^k times as
 /// large cells; level 0 is made of bits.
 struct VoxelVolume {
     Lattice lattice; ///< of level 0: a cube with a power of two along each side
     CellBits solid{0};
-    /// mean[k - 1]: level k, the mean of eight cells each. Crassin et al. Interactive Indirect
-    /// Illumination Using Voxel Cone Tracing. 2011
-    std::vector<VoxelLevel> mean;
-    /// along[a][k - 1]: what light along axis a meets in a cell: two cells one behind the other
-    /// let through the product of what each lets through, and four such pairs are averaged.
-    std::array<std::vector<VoxelLevel>, 3> along;
-
+    /// coarse[k - 1]: level k. The mean is that of eight cells each: Crassin et al. Interactive
+    /// Indirect Illumination Using Voxel Cone Tracing. 2011. Along an axis is what light along it
+    /// meets: two cells one behind the other let through the product of what each lets through, and
+    /// four such pairs are averaged.
+    std::vector<VoxelLevel> coarse;
     /// Per cell, the number of cells between it and the nearest solid one, along the axis along
     /// which they lie further apart, plus 1; 0 in a solid one, 255 where that is as far or further.
-    VoxelLevel distance;
+    std::vector<std::uint8_t> distance;
 
     std::uint32_t side() const { return lattice.size.x; }
-    std::uint32_t levels() const { return std::uint32_t(mean.size()) + 1; }
+    std::uint32_t levels() const { return std::uint32_t(coarse.size()) + 1; }
     std::size_t bytes() const;
 };
 
@@ -49,8 +53,8 @@ void averageVoxels(VoxelVolume& volume);
 /// false where they are.
 bool isEmptyAbout(const VoxelVolume& volume, glm::vec3 p, float reach);
 
-/// Trilinear opacity at a point of a level, in [0, 1]: of the mean, or, where it is not 0, of the
-/// chains along the axes, weighted by `weight`, whose sum is 1. `p`: in cells of level 0, from the
+/// Trilinear opacity at a point of a level, in [0, 1]: of the mean, or, where `weight` is not 0,
+/// of those along the axes, weighted by it; its sum is 1. `p`: in cells of level 0, from the
 /// lower corner; outside the cube nothing is opaque.
 float opacityAt(const VoxelVolume& volume, std::uint32_t level, glm::vec3 p, glm::vec3 weight);
 

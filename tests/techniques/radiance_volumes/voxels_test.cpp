@@ -68,14 +68,14 @@ TEST(Voxels, KeepTheShareOfTheirParts) {
     ASSERT_EQ(volume.levels(), 7U);
     for (std::uint32_t k = 1; k < volume.levels(); ++k) {
         double sum = 0;
-        for (const std::uint8_t opacity : volume.mean[k - 1])
-            sum += opacity / 255.;
-        const double full = double(volume.solid.count()) / std::pow(8., k);
-        EXPECT_NEAR(sum, full, double(volume.mean[k - 1].size()) * k * 0.5 / 255);
-        for (const auto& chain : volume.along)
-            for (std::size_t c = 0; c < chain[k - 1].size(); ++c)
-                EXPECT_GE(chain[k - 1][c] + int(k), volume.mean[k - 1][c])
+        for (const std::uint32_t cell : volume.coarse[k - 1]) {
+            sum += opacityByte(cell, kMeanOpacity) / 255.;
+            for (int axis = 0; axis < 3; ++axis)
+                EXPECT_GE(opacityByte(cell, axis) + k, opacityByte(cell, kMeanOpacity))
                     << "what lies behind each other hides no more than what lies beside it";
+        }
+        const double full = double(volume.solid.count()) / std::pow(8., k);
+        EXPECT_NEAR(sum, full, double(volume.coarse[k - 1].size()) * k * 0.5 / 255);
     }
 }
 

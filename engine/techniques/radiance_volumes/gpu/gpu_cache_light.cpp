@@ -30,12 +30,8 @@ std::vector<std::uint32_t> wordsOf(const VoxelVolume& voxels) {
     std::vector<std::uint32_t> words;
     for (std::size_t c = 0; c < voxels.distance.size(); ++c)
         words.push_back(std::uint32_t(voxels.distance[c]) << 24);
-    for (std::size_t k = 0; k < voxels.mean.size(); ++k)
-        for (std::size_t c = 0; c < voxels.mean[k].size(); ++c)
-            words.push_back(std::uint32_t(voxels.along[0][k][c]) |
-                            std::uint32_t(voxels.along[1][k][c]) << 8 |
-                            std::uint32_t(voxels.along[2][k][c]) << 16 |
-                            std::uint32_t(voxels.mean[k][c]) << 24);
+    for (const VoxelLevel& level : voxels.coarse)
+        words.insert(words.end(), level.begin(), level.end());
     return words;
 }
 
