@@ -12,10 +12,10 @@ layout(std430, binding = VOLUME_MAP_LIGHTS) readonly buffer Lights { GpuAreaLigh
 layout(std430, binding = VOLUME_MAP_BLOCKS) writeonly buffer Blocks { GpuLightBlock blocks[]; };
 
 void main() {
-    const uvec2 at = gl_GlobalInvocationID.xy;
-    if (any(greaterThanEqual(at, uvec2(map.blockSide))))
+    const uvec2 place = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(place, uvec2(map.blockSide))))
         return;
-    const uint number = at.y * map.blockSide + at.x, size = map.side / map.blockSide;
+    const uint number = place.y * map.blockSide + place.x, size = map.side / map.blockSide;
     GpuLightBlock block = GpuLightBlock(vec3(0), 0.0, vec3(0), 0u);
     float count = 0.0, placed = 0.0, distance = 0.0, squares = 0.0;
     for (uint k = 0u; k < size * size; ++k) {

@@ -84,6 +84,6 @@ void main() {
     for (uint k = 0u; k < VOLUME_CACHE_LANES; ++k)
         total += partial[k * 27u + lane];
     total *= light.colour[lane % 3u];
-    const uint at = cache * uint(3 * kCoefficients) + lane;
-    harmonics[at] = light.first == 1u ? total : harmonics[at] + total;
+    const uint place = cache * uint(3 * kCoefficients) + lane;
+    harmonics[place] = light.first == 1u ? total : harmonics[place] + total;
 }

@@ -50,8 +50,8 @@ GlossyLookup lookUpGlossy(PackedSurface s) {
         const uvec2 c = uvec2(q), next = min(c + 1u, uvec2(side - 1u));
         const vec2 f = q - vec2(c);
         for (uint i = 0u; i < 4u; ++i) {
-            const uvec2 at = uvec2((i & 1u) == 0u ? c.x : next.x, i < 2u ? c.y : next.y);
-            found.texel[found.count] = first + at.y * side + at.x;
+            const uvec2 corner = uvec2((i & 1u) == 0u ? c.x : next.x, i < 2u ? c.y : next.y);
+            found.texel[found.count] = first + corner.y * side + corner.x;
             found.weight[found.count++] =
                 share * ((i & 1u) == 0u ? 1.0 - f.x : f.x) * (i < 2u ? 1.0 - f.y : f.y);
         }
@@ -67,16 +67,16 @@ struct CacheSums {
 CacheSums readCache(uint cache, float irradiance[kCoefficients], float lobe[kCoefficients], GlossyLookup texels) {
     CacheSums sums = CacheSums(vec3(0), vec3(0));
     [[unroll]] for (uint i = 0u; i < kCoefficients; ++i) {
-        const uint at = 3u * (cache * kCoefficients + i);
-        const vec3 c = vec3(harmonics[at], harmonics[at + 1u], harmonics[at + 2u]);
+        const uint place = 3u * (cache * kCoefficients + i);
+        const vec3 c = vec3(harmonics[place], harmonics[place + 1u], harmonics[place + 2u]);
         sums.irradiance += irradiance[i] * c;
         sums.lobe += lobe[i] * c;
     }
     if (volume.tile > 0u && kView == VIEW_LIT) {
         sums.lobe = vec3(0);
         for (uint t = 0u; t < texels.count; ++t) {
-            const uint at = 3u * (cache * texels.texels + texels.texel[t]);
-            sums.lobe += texels.weight[t] * vec3(glossy[at], glossy[at + 1u], glossy[at + 2u]);
+            const uint place = 3u * (cache * texels.texels + texels.texel[t]);
+            sums.lobe += texels.weight[t] * vec3(glossy[place], glossy[place + 1u], glossy[place + 2u]);
         }
     }
     return sums;

@@ -21,15 +21,15 @@ vec3 placeOf(uvec2 texel, float distance) {
 }
 
 void main() {
-    const uvec2 at = gl_GlobalInvocationID.xy;
-    if (any(greaterThanEqual(at, uvec2(map.side))))
+    const uvec2 place = gl_GlobalInvocationID.xy;
+    if (any(greaterThanEqual(place, uvec2(map.side))))
         return;
     const uint step = map.view.mapSize / map.side;
     GpuAreaLight light = GpuAreaLight(vec3(0), 0.0, vec3(0), 0.0, vec3(0), 0.0, 0.0, 0.0, 0u, 0u);
     vec3 normals = vec3(0);
     for (uint k = 0u; k < step * step; ++k) {
         RsmTexel seen;
-        if (!readRsmTexel(map.view, ivec2(at * step + uvec2(k % step, k / step)), seen))
+        if (!readRsmTexel(map.view, ivec2(place * step + uvec2(k % step, k / step)), seen))
             continue;
         light.flux += seen.albedo * seen.incident;
         normals += seen.normal;
@@ -41,11 +41,11 @@ void main() {
     light.normals = length(normals);
     if (light.count > 0.0 && light.normals > 0.0) {
         light.normal = normals / light.normals;
-        light.place = placeOf(at, light.distance / light.count);
+        light.place = placeOf(place, light.distance / light.count);
     } else {
         light.flux = vec3(0);
     }
     const uint size = map.side / map.blockSide; // area lights along a block
-    const uvec2 block = at / size, within = at % size;
+    const uvec2 block = place / size, within = place % size;
     lights[map.firstLight + (block.y * map.blockSide + block.x) * size * size + within.y * size + within.x] = light;
 }

@@ -96,9 +96,9 @@ void fill(uint first, uint lane) {
             const float scale = dark < 4u ? 4.0 / float(4u + dark) : 1.0;
             for (uint c = 0u; c < 4u; ++c) {
                 const uint child = k + (c & 1u) + (c >> 1) * 2u * side;
-                const vec3 own = read(fine + child);
-                const bool filled = own == vec3(0);
-                write(fine + child, filled ? read(coarse + t) * scale : own * (scale * coarseScale[t]));
+                const vec3 before = read(fine + child);
+                const bool filled = before == vec3(0);
+                write(fine + child, filled ? read(coarse + t) * scale : before * (scale * coarseScale[t]));
                 if (level > 0u)
                     fineScale[child] = filled ? scale : scale * coarseScale[t];
             }

@@ -15,8 +15,8 @@ float opacityAt(uint side0, uint level, vec3 p, vec3 weight) {
     for (uint k = 0u; k < level; ++k)
         first += (side0 >> k) * (side0 >> k) * (side0 >> k);
     const int side = int(side0 >> level);
-    const vec3 at = p / float(1u << level) - 0.5;
-    const vec3 base = floor(at), f = at - base;
+    const vec3 q = p / float(1u << level) - 0.5;
+    const vec3 base = floor(q), f = q - base;
     const ivec3 c = ivec3(base);
     const bool directional = weight != vec3(0);
     float sum = 0.0;

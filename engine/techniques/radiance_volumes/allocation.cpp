@@ -113,7 +113,7 @@ void setPlaces(CacheAllocation& made, const CachePlaceSums& sums) {
     for (std::size_t g = made.ofGrid.size(); g-- > 0;)
         for (std::size_t k = 0; k < made.ofGrid[g]; ++k, ++cache)
             made.places[cache] =
-                placeOf(sums.of(cache), made.places[cache].position, made.grids.grids[g].cell);
+                placeOf(sums.sums(cache), made.places[cache].position, made.grids.grids[g].cell);
 }
 
 WantedNodes nodesOfSurfaces(const Scene& scene, const CacheGrids& grids) {

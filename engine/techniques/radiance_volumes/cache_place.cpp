@@ -10,7 +10,7 @@ namespace limn {
 
 namespace {
 
-constexpr float kLeastAgreement = 0.25f; // length of the mean of unit normals
+constexpr float kMinAgreement = 0.25f; // length of the mean of unit normals
 
 void addTo(std::int64_t& sum, float value) {
     std::atomic_ref(sum).fetch_add(std::int64_t(std::lround(value)), std::memory_order_relaxed);
@@ -18,12 +18,12 @@ void addTo(std::int64_t& sum, float value) {
 
 } // namespace
 
-glm::vec3 CachePlace::raised(float least) const {
+glm::vec3 CachePlace::raised(float minHeight) const {
     const float agreement = glm::length(normal);
-    if (agreement < kLeastAgreement || height >= least)
+    if (agreement < kMinAgreement || height >= minHeight)
         return position;
     // A step along the mean normal raises it by the normals' mean cosine with that, `agreement`.
-    return position + normal * ((least - height) / (agreement * agreement));
+    return position + normal * ((minHeight - height) / (agreement * agreement));
 }
 
 void CachePlaceSums::add(std::size_t cache, glm::vec3 position, float cell, glm::vec3 p,

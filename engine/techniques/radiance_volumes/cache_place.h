@@ -15,10 +15,10 @@ struct CachePlace {
     glm::vec3 normal{0}; ///< mean of the surfaces' unit normals
     float height = 0;    ///< mean height above their planes [m]
 
-    /// The cache's place, moved along `normal` until it is at least `least` above the surfaces on
+    /// The cache's place, moved along `normal` until it is `minHeight` above the surfaces on
     /// average, so that these do not hide what it looks for. Where they face opposite ways, as the
     /// two sides of a thin wall do, it stays.
-    glm::vec3 raised(float least) const;
+    glm::vec3 raised(float minHeight) const;
     bool operator==(const CachePlace&) const = default;
 };
 
@@ -41,7 +41,7 @@ public:
     /// Adds a surface through point `p` with unit `normal`. `position`, `cell`: place of the cache,
     /// and the side of its grid's cells [m].
     void add(std::size_t cache, glm::vec3 position, float cell, glm::vec3 p, glm::vec3 normal);
-    const PlaceSums& of(std::size_t cache) const { return m_sums[cache]; }
+    const PlaceSums& sums(std::size_t cache) const { return m_sums[cache]; }
 
 private:
     std::vector<PlaceSums> m_sums;

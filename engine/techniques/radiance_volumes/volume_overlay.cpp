@@ -143,14 +143,14 @@ const AreaLightBlock* brightestBlock(const CacheLightInput& input, const CachePl
         received[a.source][a.light] = luminance(lit.lights->flux[a.light] * lit.colour) * a.factor;
     });
     const AreaLightBlock* best = nullptr;
-    float most = 0;
+    float brightest = 0;
     for (std::size_t s = 0; s < input.lights.size(); ++s)
         for (const AreaLightBlock& block : input.lights[s].lights->blocks) {
             float sum = 0;
             for (std::uint32_t j = block.begin; j < block.end; ++j)
                 sum += received[s][j];
-            if (sum > most) {
-                most = sum;
+            if (sum > brightest) {
+                brightest = sum;
                 best = &block;
             }
         }

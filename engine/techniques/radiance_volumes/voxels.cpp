@@ -160,9 +160,9 @@ bool isEmptyAbout(const VoxelVolume& volume, glm::vec3 p, float reach) {
 
 float opacityAt(const VoxelVolume& volume, std::uint32_t level, glm::vec3 p, glm::vec3 weight) {
     const int side = int(volume.side() >> level);
-    const glm::vec3 at = p / float(1U << level) - 0.5f;
-    const glm::ivec3 c(lowerInteger(at.x), lowerInteger(at.y), lowerInteger(at.z));
-    const float f[3] = {at.x - float(c.x), at.y - float(c.y), at.z - float(c.z)};
+    const glm::vec3 q = p / float(1U << level) - 0.5f;
+    const glm::ivec3 c(lowerInteger(q.x), lowerInteger(q.y), lowerInteger(q.z));
+    const float f[3] = {q.x - float(c.x), q.y - float(c.y), q.z - float(c.z)};
     const bool directional = weight != glm::vec3(0);
     float sum = 0;
     for (int k = 0; k < 8; ++k) {

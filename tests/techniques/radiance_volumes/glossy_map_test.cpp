@@ -35,13 +35,13 @@ TEST(GlossyMaps, HaveTexelsOfEqualSolidAngle) {
     for (int t = 0; t < kSide * kSide; ++t) {
         double angle = 0;
         for (int s = 0; s < kFine * kFine; ++s) {
-            const auto at = [&](int dx, int dy) {
+            const auto corner = [&](int dx, int dy) {
                 return glm::dvec3(hemisphereOfSquare(
                     {(float(t % kSide) + float(s % kFine + dx) / kFine) / kSide,
                      (float(t / kSide) + float(s / kFine + dy) / kFine) / kSide}));
             };
-            angle +=
-                triangle(at(0, 0), at(1, 0), at(1, 1)) + triangle(at(0, 0), at(1, 1), at(0, 1));
+            angle += triangle(corner(0, 0), corner(1, 0), corner(1, 1)) +
+                     triangle(corner(0, 0), corner(1, 1), corner(0, 1));
         }
         EXPECT_NEAR(angle, 2 * std::numbers::pi / (kSide * kSide), 1e-3 * angle + 1e-4);
     }

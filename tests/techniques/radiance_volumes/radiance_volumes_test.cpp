@@ -310,8 +310,8 @@ TEST(RadianceVolumes, AreFiniteForBlackHugeAndBuriedLightsAndWithoutAny) {
     scene.technique.settings["radiance-volumes.glossy"] = 1;
     LitByVolumes lit(scene);
     const Viewpoint v = view();
-    for (const Viewpoint* of : {&v, static_cast<const Viewpoint*>(nullptr)}) {
-        lit.update(of);
+    for (const Viewpoint* shown : {&v, static_cast<const Viewpoint*>(nullptr)}) {
+        lit.update(shown);
         for (const auto* numbers : {&lit.part().light.harmonics, &lit.part().light.glossy})
             for (const glm::vec3 value : *numbers)
                 for (int c = 0; c < 3; ++c)

@@ -53,9 +53,9 @@ protected:
         viewport->setScene(scene, layout);
         lighting = std::make_unique<DeviceVolumes>(*device, *viewport);
     }
-    LightingReport update(const Viewpoint* of = nullptr, const Progress& progress = {}) {
+    LightingReport update(const Viewpoint* shown = nullptr, const Progress& progress = {}) {
         viewport->setScene(scene, layout);
-        return lighting->update({.scene = scene, .view = of}, progress);
+        return lighting->update({.scene = scene, .view = shown}, progress);
     }
     void set(const char* key, double value) {
         scene.technique.settings[std::string("radiance-volumes.") + key] = value;
