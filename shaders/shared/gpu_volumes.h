@@ -121,7 +121,7 @@ struct GpuVolumeLight {
     uint keepsVisibility;             // 1: for volume_maps.comp
 };
 
-/// Push constants of volume_maps.comp: the same light, or, without blocks, the end of all.
+/// Push constants of volume_maps.comp, one light or, without blocks, the end of all, and of volume_fill.comp.
 struct GpuVolumeMaps {
     vec3 eye; uint tile;              // texels along a map's side
     vec3 colour; uint caches;

@@ -4,6 +4,7 @@
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/uploader.h"
 #include "shaders/radiance_volumes/volume_caches.comp.h"
+#include "shaders/radiance_volumes/volume_fill.comp.h"
 #include "shaders/radiance_volumes/volume_maps.comp.h"
 
 #include <algorithm>
@@ -49,6 +50,9 @@ GpuCacheLight::GpuCacheLight(gpu::Device& device)
     m_maps = gpu::createComputePipeline(device, kVolumeMapsComp, m_layout.handle,
                                         std::array<std::uint32_t, 1>{VOLUME_CACHE_LANES},
                                         "maps of caches");
+    m_fill = gpu::createComputePipeline(device, kVolumeFillComp, m_layout.handle,
+                                        std::array<std::uint32_t, 1>{VOLUME_CACHE_LANES},
+                                        "fill maps of caches");
 }
 
 bool GpuCacheLight::setVoxels(const VoxelVolume& voxels) {
@@ -125,8 +129,12 @@ void GpuCacheLight::recordMaps(VkCommandBuffer cmd, const Bound& bound,
                                   .blockLights = lit ? lit->lights->blockSize : 0,
                                   .fill = input.glossy->fill,
                                   .first = first ? 1U : 0U};
-    m_dispatches += gpu::dispatch(m_device, cmd, m_maps.handle, m_layout.handle, bound.set,
-                                  std::as_bytes(std::span(&constants, 1)), bound.caches);
+    const auto pushed = std::as_bytes(std::span(&constants, 1));
+    m_dispatches += gpu::dispatch(m_device, cmd, m_maps.handle, m_layout.handle, bound.set, pushed,
+                                  gpu::groups(bound.caches, VOLUME_CACHE_LANES));
+    if (!lit && input.glossy->fill > 0)
+        m_dispatches += gpu::dispatch(m_device, cmd, m_fill.handle, m_layout.handle, bound.set,
+                                      pushed, bound.caches);
 }
 
 GpuCachesLight GpuCacheLight::light(std::span<const CachePlace> places, GpuCacheLightInput input) {

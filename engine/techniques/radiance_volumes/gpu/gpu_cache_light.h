@@ -66,7 +66,7 @@ private:
     gpu::DescriptorSetLayout m_setLayout;
     gpu::PipelineLayout m_layout;
     gpu::Pipeline m_caches[2]; ///< of two and three bands
-    gpu::Pipeline m_maps;
+    gpu::Pipeline m_maps, m_fill;
     std::uint64_t m_dispatches = 0;
 };
 
