@@ -27,12 +27,13 @@ using uint = std::uint32_t;
 #define VOLUME_MAP_BINDINGS 5u
 #define VOLUME_MAP_LANES 8u // along each side of a workgroup
 
-// Bindings of set 0 of volume_demand.comp
+// Bindings of set 0 of volume_demand.comp and volume_missed.comp
 #define VOLUME_DEMAND_SURFACE 0u
 #define VOLUME_DEMAND_DEPTH 1u
 #define VOLUME_DEMAND_GRIDS 2u
-#define VOLUME_DEMAND_SUMS 3u // GpuPlaceSums for each node of each grid
-#define VOLUME_DEMAND_BINDINGS 4u
+#define VOLUME_DEMAND_SUMS 3u   // GpuPlaceSums for each node of each grid
+#define VOLUME_DEMAND_MISSED 4u // of volume_missed.comp, which has addresses in place of the sums
+#define VOLUME_DEMAND_BINDINGS 5u
 
 // Bindings of set 0 of volume_caches.comp
 #define VOLUME_CACHE_PLACES 0u // GpuCachePlace

@@ -36,6 +36,8 @@ void describeVolume(const CacheAllocation* caches, const VoxelVolume* voxels,
         {"caches", "Caches", "Caches in all grids", double(caches->caches())},
         {"caches_dropped", "Caches dropped", "Caches that the view needs beyond their number",
          double(caches->droppedCount)},
+        {"pixels_missed", "Pixels missed", "Pixels of the view that find no cache",
+         double(caches->missed)},
         {"lights_traced", "Lights traced",
          "Lights whose shadow map was cast: they or an object moved", double(cost.traced)},
         {"voxels", "Voxels", "Voxels that surfaces touch",
@@ -54,9 +56,7 @@ void describeVolume(const LitVolume& lit, const VolumeCost& cost, LightingReport
     }
     if (lit.voxels)
         bytes += lit.voxels->bytes();
-    const std::size_t missed = lit.part ? lit.part->caches->missed : 0;
     const LightingCounter more[] = {
-        {"pixels_missed", "Pixels missed", "Pixels of the view that find no cache", double(missed)},
         {"area_lights", "Virtual area lights", "Of all lights", double(areaLights)},
         {"shadow_rays", "Shadow map rays", "Rays cast for shadow maps", double(cost.mapRays)},
         {"view_rays", "View rays", "Rays through pixels that placed caches", double(cost.viewRays)},

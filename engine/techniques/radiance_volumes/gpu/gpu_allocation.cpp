@@ -2,9 +2,11 @@
 #include "engine/techniques/radiance_volumes/gpu/gpu_allocation.h"
 
 #include "engine/gpu/barrier.h"
+#include "engine/gpu/uploader.h"
 #include "engine/shading/pixel_rays.h"
 #include "engine/techniques/radiance_volumes/gpu/volume_pass.h"
 #include "shaders/radiance_volumes/volume_demand.comp.h"
+#include "shaders/radiance_volumes/volume_missed.comp.h"
 
 #include <array>
 #include <cstring>
@@ -22,7 +24,8 @@ namespace {
 
 constexpr std::array kDemandTypes = {
     VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 static_assert(kDemandTypes.size() == VOLUME_DEMAND_BINDINGS);
 static_assert(VOLUME_PLACE_UNIT == kPlaceUnit);
 
@@ -51,13 +54,70 @@ GpuAllocation::GpuAllocation(gpu::Device& device, Viewport& viewport)
                        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                        .memory = gpu::MemoryKind::Upload,
                        .name = "grids of caches"}),
+      m_missed(device, {.size = sizeof(std::uint32_t),
+                        .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                        .memory = gpu::MemoryKind::Readback,
+                        .name = "pixels without caches"}),
       m_setLayout(gpu::createSetLayout(device, kDemandTypes)),
       m_pool(gpu::createDescriptorPool(device, 1, kDemandTypes)),
       m_set(gpu::allocateSet(device, m_pool, m_setLayout)),
       m_layout(gpu::createPipelineLayout(device, std::array{m_setLayout.handle},
                                          sizeof(GpuVolumeDemand), "caches wanted")),
       m_demand(gpu::createComputePipeline(device, kVolumeDemandComp, m_layout.handle, {},
-                                          "caches wanted")) {}
+                                          "caches wanted")),
+      m_count(gpu::createComputePipeline(device, kVolumeMissedComp, m_layout.handle, {},
+                                         "pixels without caches")) {}
+
+/// A view that is drawn for a step to read.
+struct GpuAllocation::Picture {
+    glm::uvec2 size;
+    SurfaceMapView drawn;
+    GpuVolumeDemand constants;
+};
+
+/// Draws the view, and runs a step for each pixel. `nodes`: what it binds for them.
+void GpuAllocation::draw(const Picture& picture, const gpu::Pipeline& step,
+                         const gpu::Buffer& nodes) {
+    m_viewport.drawSurfaceMaps(
+        std::span(&picture.drawn, 1), picture.size,
+        [&](VkCommandBuffer cmd, const SurfaceMap& map, std::size_t) {
+            gpu::writeTexture(m_device, m_set, VOLUME_DEMAND_SURFACE, map.surface, map.sampler);
+            gpu::writeTexture(m_device, m_set, VOLUME_DEMAND_DEPTH, map.depth, map.sampler);
+            const auto bind = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
+                gpu::writeBuffer(m_device, m_set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                 buffer.handle);
+            };
+            bind(VOLUME_DEMAND_GRIDS, m_grids);
+            bind(VOLUME_DEMAND_SUMS, nodes);
+            bind(VOLUME_DEMAND_MISSED, m_missed);
+            m_mapBytes = map.bytes;
+            vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, step.handle);
+            vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, m_layout.handle, 0, 1,
+                                    &m_set, 0, nullptr);
+            vkCmdPushConstants(cmd, m_layout.handle, VK_SHADER_STAGE_ALL, 0,
+                               sizeof picture.constants, &picture.constants);
+            vkCmdDispatch(cmd, gpu::groups(picture.size.x, VOLUME_MAP_LANES),
+                          gpu::groups(picture.size.y, VOLUME_MAP_LANES), 1);
+            gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kAllReads);
+            gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kHostRead);
+            ++m_dispatches;
+        });
+}
+
+/// Pixels miss caches only where some were dropped.
+std::size_t GpuAllocation::countMissed(const Picture& picture, const CacheAllocation& made) {
+    if (made.droppedCount == 0)
+        return 0;
+    gpu::Uploader uploader(m_device);
+    const gpu::Buffer address =
+        uploader.buffer(std::as_bytes(std::span(made.address)), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                        "addresses of caches");
+    uploader.flush();
+    auto& missed = *static_cast<std::uint32_t*>(m_missed.mapped);
+    missed = 0;
+    draw(picture, m_count, address);
+    return missed;
+}
 
 std::optional<CacheAllocation> GpuAllocation::allocate(const Scene& scene, const Viewpoint& view,
                                                        const VolumeSettings& settings) {
@@ -76,31 +136,15 @@ std::optional<CacheAllocation> GpuAllocation::allocate(const Scene& scene, const
                    .name = "caches wanted"}};
     const shared::GpuCacheGrids onDevice = gpuCacheGrids(grids, {}, glm::vec3(0));
     std::memcpy(m_grids.mapped, &onDevice, sizeof onDevice);
-    const glm::uvec2 size = pictureSize(view);
-    const SurfaceMapView drawn =
-        surfaceMapOf(view.camera, float(size.x) / float(size.y), scene.bounds);
-    const GpuVolumeDemand picture = pictureOf(view, size, drawn);
-    m_viewport.drawSurfaceMaps(
-        std::span(&drawn, 1), size, [&](VkCommandBuffer cmd, const SurfaceMap& map, std::size_t) {
-            gpu::writeTexture(m_device, m_set, VOLUME_DEMAND_SURFACE, map.surface, map.sampler);
-            gpu::writeTexture(m_device, m_set, VOLUME_DEMAND_DEPTH, map.depth, map.sampler);
-            gpu::writeBuffer(m_device, m_set, VOLUME_DEMAND_GRIDS,
-                             VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, m_grids.handle);
-            gpu::writeBuffer(m_device, m_set, VOLUME_DEMAND_SUMS, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                             m_sums.handle);
-            m_mapBytes = map.bytes;
-            vkCmdFillBuffer(cmd, m_sums.handle, 0, VK_WHOLE_SIZE, 0);
-            gpu::memoryBarrier(cmd, gpu::kTransferWrite, gpu::kComputeWrite);
-            vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, m_demand.handle);
-            vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, m_layout.handle, 0, 1,
-                                    &m_set, 0, nullptr);
-            vkCmdPushConstants(cmd, m_layout.handle, VK_SHADER_STAGE_ALL, 0, sizeof picture,
-                               &picture);
-            vkCmdDispatch(cmd, gpu::groups(size.x, VOLUME_MAP_LANES),
-                          gpu::groups(size.y, VOLUME_MAP_LANES), 1);
-            gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kAllReads);
-            ++m_dispatches;
-        });
+    Picture picture{.size = pictureSize(view), .drawn = {}, .constants = {}};
+    picture.drawn =
+        surfaceMapOf(view.camera, float(picture.size.x) / float(picture.size.y), scene.bounds);
+    picture.constants = pictureOf(view, picture.size, picture.drawn);
+    m_device.immediate("clear caches wanted", [&](VkCommandBuffer cmd) {
+        vkCmdFillBuffer(cmd, m_sums.handle, 0, VK_WHOLE_SIZE, 0);
+        gpu::memoryBarrier(cmd, gpu::kTransferWrite, gpu::kComputeWrite);
+    });
+    draw(picture, m_demand, m_sums);
     std::vector<GpuPlaceSums> sums(grids.nodes());
     gpu::readBuffer(m_device, m_sums, std::as_writable_bytes(std::span(sums)));
     WantedNodes wanted(sums.size());
@@ -114,6 +158,7 @@ std::optional<CacheAllocation> GpuAllocation::allocate(const Scene& scene, const
                 place = placeOf({sums[i].surfaces, sums[i].x, sums[i].y, sums[i].z, sums[i].height},
                                 place.position, grids.grids[g].cell);
             }
+    made.missed = countMissed(picture, made);
     made.shown = middlesOfTriangles(scene);
     return made;
 }

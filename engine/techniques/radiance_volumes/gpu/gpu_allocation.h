@@ -20,8 +20,8 @@ public:
     /// Both outlive the object.
     GpuAllocation(gpu::Device& device, Viewport& viewport);
 
-    /// Waits for the device. Pixels are not counted, and the points shown are those of all
-    /// surfaces. None if the device cannot bind what the nodes take.
+    /// Waits for the device. Of the pixels, those that find no cache are counted; the points shown
+    /// are those of all surfaces. None if the device cannot bind what the nodes take.
     std::optional<CacheAllocation> allocate(const Scene& scene, const Viewpoint& view,
                                             const VolumeSettings& settings);
 
@@ -29,15 +29,20 @@ public:
     std::uint64_t bytes() const { return m_sums.size + m_mapBytes; } ///< of sums and images
 
 private:
+    struct Picture;
+    void draw(const Picture& picture, const gpu::Pipeline& step, const gpu::Buffer& nodes);
+    std::size_t countMissed(const Picture& picture, const CacheAllocation& made);
+
     gpu::Device& m_device;
     Viewport& m_viewport;
-    gpu::Buffer m_grids; ///< mapped
-    gpu::Buffer m_sums;  ///< shared::GpuPlaceSums of each node
+    gpu::Buffer m_grids;  ///< mapped
+    gpu::Buffer m_sums;   ///< shared::GpuPlaceSums of each node
+    gpu::Buffer m_missed; ///< mapped: a number
     gpu::DescriptorSetLayout m_setLayout;
     gpu::DescriptorPool m_pool;
     VkDescriptorSet m_set = VK_NULL_HANDLE;
     gpu::PipelineLayout m_layout;
-    gpu::Pipeline m_demand;
+    gpu::Pipeline m_demand, m_count;
     std::uint64_t m_dispatches = 0, m_mapBytes = 0;
 };
 

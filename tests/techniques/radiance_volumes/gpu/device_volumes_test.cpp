@@ -168,6 +168,22 @@ TEST_F(DeviceVolumesTest, PlacesCachesByWhatTheViewShows) {
 }
 
 // Two lights, so that the second adds to the first's maps.
+TEST_F(DeviceVolumesTest, CountsPixelsWithoutCaches) {
+    const Viewpoint v = view();
+    Scene lit = room(LightKind::Point);
+    for (const int caches : {4096, 150, 30}) {
+        lit.technique.settings["radiance-volumes.caches"] = caches;
+        LitByVolumes cpu(lit);
+        const double expected = counterOf(cpu.update(&v), "pixels_missed");
+        light(lit);
+        const double missed = counterOf(update(&v), "pixels_missed");
+        std::printf("%d caches: %g of 3072 pixels find none, on the CPU %g\n", caches, missed,
+                    expected);
+        EXPECT_EQ(missed > 0, caches < 4096);
+        EXPECT_NEAR(missed, expected, 5);
+    }
+}
+
 TEST_F(DeviceVolumesTest, MakesMapsForReflectionsAsTheCpuDoes) {
     const Viewpoint v = view();
     Scene lit = room(LightKind::Point);
@@ -225,6 +241,7 @@ TEST_F(DeviceVolumesTest, ShowsItsLightWhereItWasWritten) {
 TEST_F(DeviceVolumesTest, DoesOnlyWhatChangedAndRepeatsItsBits) {
     const Viewpoint v = view();
     light(room(LightKind::Point));
+    set("caches", 4096);
     const LightingReport first = update(&v);
     EXPECT_EQ(counterOf(first, "views"), 6);
     // A map and its blocks for each view, the nodes, and the caches.
