@@ -77,7 +77,7 @@ using TracePhotons = std::function<PhotonMap(const PhotonSource& source, const P
 struct PhotonCost {
     double areaMs = 0, traceMs = 0, injectionMs = 0;
     std::uint64_t rays = 0, traced = 0; ///< sources whose photons were traced
-    std::uint32_t clipped = 0;          ///< parts of the scene whose area was clipped to cells
+    std::uint32_t clipped = 0;          ///< instances whose area was clipped to cells
 };
 
 /// The photons of a scene and its areas, kept from one update to the next.

@@ -97,31 +97,22 @@ bool storesPhotons(const Material& material) {
     return !isMetal && material.transmission < 1 && glm::vec3(material.baseColor) != glm::vec3(0);
 }
 
-std::vector<CellArea> surfaceAreas(const Scene& scene, std::span<const std::uint32_t> instances,
+std::vector<CellArea> surfaceAreas(const Scene& scene, std::uint32_t index,
                                    const Lattice& lattice) {
-    constexpr std::uint32_t kBatch = 256; // triangles
-    struct Batch {
-        std::uint32_t instance, first, end;
-        std::vector<LobeSample> samples;
-    };
-    std::vector<Batch> batches;
-    for (const std::uint32_t i : instances) {
-        const Instance& instance = scene.instances[i];
-        if (!storesPhotons(scene.materialOf(instance)))
-            continue;
-        const auto count = std::uint32_t(scene.meshOf(instance).triangleCount());
-        for (std::uint32_t first = 0; first < count; first += kBatch)
-            batches.push_back({i, first, std::min(first + kBatch, count), {}});
-    }
+    constexpr std::size_t kBatch = 256; // triangles
+    const Instance& instance = scene.instances[index];
+    if (!storesPhotons(scene.materialOf(instance)))
+        return {};
+    const std::size_t count = scene.meshOf(instance).triangleCount();
+    std::vector<std::vector<LobeSample>> batches((count + kBatch - 1) / kBatch);
     parallelRanges(batches.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b)
-            for (std::uint32_t t = batches[b].first; t < batches[b].end; ++t)
-                addSides(scene, scene.instances[batches[b].instance], t, lattice,
-                         batches[b].samples);
+            for (std::size_t t = b * kBatch; t < std::min((b + 1) * kBatch, count); ++t)
+                addSides(scene, instance, std::uint32_t(t), lattice, batches[b]);
     });
     std::vector<LobeSample> samples;
-    for (const Batch& batch : batches)
-        samples.insert(samples.end(), batch.samples.begin(), batch.samples.end());
+    for (const std::vector<LobeSample>& batch : batches)
+        samples.insert(samples.end(), batch.begin(), batch.end());
     if (samples.empty())
         return {};
     // The harmonics of a clamped cosine, whose first band is half of that of facingHarmonics().
@@ -138,6 +129,7 @@ PhotonAreas::Placed PhotonAreas::placedOf(const Scene& scene, std::uint32_t i) {
     const Instance& instance = scene.instances[i];
     const Material& m = scene.materialOf(instance);
     Placed placed{.mesh = instance.mesh,
+                  .dynamic = instance.dynamic,
                   .stores = storesPhotons(m),
                   .twoSided = isTwoSided(m),
                   .alpha = 1,
@@ -151,51 +143,87 @@ PhotonAreas::Placed PhotonAreas::placedOf(const Scene& scene, std::uint32_t i) {
     return placed;
 }
 
+/// Takes over the areas of instances that are as before. Returns the others.
+std::vector<std::uint32_t> PhotonAreas::keep(const Scene& scene, bool& staticChanged) {
+    std::vector<Kept> before = std::move(m_instances);
+    m_instances.clear();
+    std::vector<std::uint32_t> others;
+    staticChanged = before.size() != scene.instances.size();
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        m_instances.push_back({placedOf(scene, i), {}});
+        Kept& now = m_instances.back();
+        auto same = before.begin() + std::ptrdiff_t(std::min<std::size_t>(i, before.size()));
+        if (same == before.end() || same->placed != now.placed) {
+            staticChanged |= !now.placed.dynamic || same == before.end() || !same->placed.dynamic;
+            same = std::ranges::find(before, now.placed, &Kept::placed);
+        }
+        if (same == before.end())
+            others.push_back(i);
+        else
+            now.areas = same->areas;
+    }
+    return others;
+}
+
+/// Adds the instances' areas up.
+void PhotonAreas::sum(bool staticChanged) {
+    parallelRanges(kPhotonLattices, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            if (staticChanged)
+                m_static[k].clear();
+            m_sums[k].clear();
+            std::vector<CellArea> all;
+            for (const Kept& kept : m_instances)
+                if (staticChanged && !kept.placed.dynamic)
+                    all.insert(all.end(), (*kept.areas)[k].begin(), (*kept.areas)[k].end());
+            std::ranges::stable_sort(all, {}, &CellArea::cell);
+            for (const CellArea& cell : all) {
+                if (m_static[k].empty() || m_static[k].back().cell != cell.cell)
+                    m_static[k].push_back({.cell = cell.cell});
+                for (std::size_t i = 0; i < 4; ++i)
+                    m_static[k].back().harmonics[i] += cell.harmonics[i];
+            }
+            if (!m_dynamic)
+                continue;
+            m_sums[k] = m_static[k];
+            for (const Kept& kept : m_instances)
+                if (kept.placed.dynamic)
+                    m_sums[k] = sumOf(m_sums[k], (*kept.areas)[k]);
+        }
+    });
+}
+
 bool PhotonAreas::follow(const Scene& scene, const PhotonLattices& lattices) {
-    m_clipped = 0;
-    std::vector<Part> before;
-    if (m_assets == scene.assets && m_lattices == lattices)
-        before = std::move(m_parts);
+    const bool anew = m_assets != scene.assets || m_lattices != lattices;
+    if (anew)
+        m_instances.clear();
     m_assets = scene.assets;
     m_lattices = lattices;
-    m_parts.assign(1, {});
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-        if (scene.instances[i].dynamic)
-            m_parts.emplace_back();
-        Part& part = scene.instances[i].dynamic ? m_parts.back() : m_parts[0];
-        part.instances.push_back(i);
-        part.placed.push_back(placedOf(scene, i));
-    }
-    bool changed = before.size() != m_parts.size();
-    for (std::size_t p = 0; p < m_parts.size(); ++p) {
-        Part& part = m_parts[p];
-        if (p < before.size() && before[p].placed == part.placed) {
-            part.areas = std::move(before[p].areas);
-            continue;
-        }
-        changed = true;
-        ++m_clipped;
-        for (std::size_t k = 0; k < kPhotonLattices; ++k)
-            part.areas[k] = surfaceAreas(scene, part.instances, lattices[k]);
-    }
-    if (!changed)
+    const std::size_t before = m_instances.size();
+    bool staticChanged = false;
+    const std::vector<std::uint32_t> others = keep(scene, staticChanged);
+    m_clipped = std::uint32_t(others.size());
+    if (others.empty() && !staticChanged && !anew && before == m_instances.size())
         return false;
-    for (std::size_t k = 0; k < kPhotonLattices; ++k) {
-        m_sums[k].clear();
-        if (m_parts.size() == 1)
-            continue;
-        for (const Part& part : m_parts)
-            m_sums[k] = m_sums[k].empty() ? part.areas[k] : sumOf(m_sums[k], part.areas[k]);
-    }
+    parallelRanges(others.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t j = begin; j < end; ++j) {
+            Areas areas;
+            for (std::size_t k = 0; k < kPhotonLattices; ++k)
+                areas[k] = surfaceAreas(scene, others[j], lattices[k]);
+            m_instances[others[j]].areas = std::make_shared<const Areas>(std::move(areas));
+        }
+    });
+    m_dynamic = std::ranges::any_of(m_instances, [](const Kept& k) { return k.placed.dynamic; });
+    sum(staticChanged || anew);
     return true;
 }
 
 std::uint64_t PhotonAreas::bytes() const {
     std::uint64_t cells = 0;
     for (std::size_t k = 0; k < kPhotonLattices; ++k) {
-        cells += m_sums[k].size();
-        for (const Part& part : m_parts)
-            cells += part.areas[k].size();
+        cells += m_sums[k].size() + m_static[k].size();
+        for (const Kept& kept : m_instances)
+            cells += (*kept.areas)[k].size();
     }
     return cells * sizeof(CellArea);
 }

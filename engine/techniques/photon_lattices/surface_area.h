@@ -25,14 +25,15 @@ struct CellArea {
 /// Whether photons are stored on surfaces of the material: whether it reflects any diffusely.
 bool storesPhotons(const Material& material);
 
-/// Sums over those surfaces of the instances that store photons, in the order of the cells; cells
-/// without any are left out. Triangles are clipped to the cells. Each side that reflects counts;
-/// the holes of a cutout do not, by the middle of each clipped piece.
-std::vector<CellArea> surfaceAreas(const Scene& scene, std::span<const std::uint32_t> instances,
+/// Sums over an instance's surface, if it stores photons, in the order of the cells; cells without
+/// any are left out. Triangles are clipped to the cells. Each side that reflects counts; the holes
+/// of a cutout do not, by the middle of each clipped piece.
+std::vector<CellArea> surfaceAreas(const Scene& scene, std::uint32_t instance,
                                    const Lattice& lattice);
 
-/// The areas of a scene in its three lattices, kept from one update to the next. A dynamic object
-/// that moves is taken out of the sums and added again.
+/// The areas of a scene in its three lattices, kept from one update to the next. Instances that
+/// move are taken out of the sums and added again; the sum of all static ones is kept apart, so
+/// that a dynamic object costs little.
 class PhotonAreas {
 public:
     /// Brings the areas up to date. Returns whether anything changed.
@@ -40,37 +41,39 @@ public:
 
     /// In the order of the cells.
     const std::vector<CellArea>& of(std::size_t lattice) const {
-        return m_parts.size() == 1 ? m_parts[0].areas[lattice] : m_sums[lattice];
+        return m_dynamic ? m_sums[lattice] : m_static[lattice];
     }
 
     std::uint64_t bytes() const;
-    /// Number of parts that the last follow() clipped: dynamic objects, and all others together.
+    /// Number of instances that the last follow() clipped.
     std::uint32_t clipped() const { return m_clipped; }
 
 private:
+    using Areas = std::array<std::vector<CellArea>, kPhotonLattices>;
     /// What the area of an instance depends on.
     struct Placed {
         std::uint32_t mesh;
-        bool stores, twoSided;
+        bool dynamic, stores, twoSided;
         /// Of a cutout's holes.
         float alpha, cutoff;
         TextureRef texture;
         glm::mat4 toWorld;
         bool operator==(const Placed&) const = default;
     };
-    /// A dynamic instance, or all others.
-    struct Part {
-        std::vector<std::uint32_t> instances; ///< indices into Scene::instances
-        std::vector<Placed> placed;
-        std::array<std::vector<CellArea>, kPhotonLattices> areas;
+    struct Kept {
+        Placed placed;
+        std::shared_ptr<const Areas> areas;
     };
 
     static Placed placedOf(const Scene& scene, std::uint32_t instance);
+    std::vector<std::uint32_t> keep(const Scene& scene, bool& staticChanged);
+    void sum(bool staticChanged);
 
     std::shared_ptr<const Assets> m_assets;
     PhotonLattices m_lattices;
-    std::vector<Part> m_parts{1};
-    std::array<std::vector<CellArea>, kPhotonLattices> m_sums; ///< of several parts
+    std::vector<Kept> m_instances; ///< as Scene::instances
+    Areas m_static, m_sums;        ///< of static instances; of all, where some are dynamic
+    bool m_dynamic = false;
     std::uint32_t m_clipped = 0;
 };
 

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <numeric>
 
 namespace limn::lattice_part_test {
 namespace {
@@ -42,14 +41,13 @@ struct OneCell {
             add(glm::vec3(power / kCount), n, -sampleCosineHemisphere(n, Sampler{0, i}.pair(0)));
     }
     float irradiance(glm::vec3 n, bool incident) const {
-        std::vector<std::uint32_t> all(scene.instances.size());
-        std::iota(all.begin(), all.end(), 0U);
+        PhotonAreas areas;
+        areas.follow(scene, {kOneCell, kOneCell, kOneCell});
         const PhotonSums sums = injectPhotons(map, std::vector<std::uint8_t>(map.photons.size(), 0),
                                               {kOneCell, kOneCell, kOneCell}, incident);
         IndirectField field;
         field.parts = {std::make_shared<const PhotonLatticePart>(
-            litCells(kOneCell, sums[0], surfaceAreas(scene, all, kOneCell), CellsKept::Lit),
-            incident, false)};
+            litCells(kOneCell, sums[0], areas.of(0), CellsKept::Lit), incident, false)};
         return sampleIrradiance({field, {}, scene, 0, 0, 0, 0, glm::vec3(0.25f), n}).x;
     }
 };
@@ -141,8 +139,7 @@ TEST(PhotonLattice, PutsASurfaceInAFaceIntoTheCellThatItFaces) {
     simple::SceneBuilder b;
     b.addMaterial(simple::lambert(glm::vec3(0.5f)));
     b.add(simple::quad({1, 0.1f, 0.1f}, {0, 0.2f, 0}, {0, 0, 0.2f}));
-    const std::uint32_t first = 0;
-    const auto cells = surfaceAreas(b.build(), {&first, 1}, lattice);
+    const auto cells = surfaceAreas(b.build(), 0, lattice);
     ASSERT_EQ(cells.size(), 1U);
     EXPECT_EQ(cells[0].cell, 2U);
 }

@@ -65,8 +65,7 @@ TEST(SurfaceAreas, OfAClosedSurfaceAreItsAreaInTheCellsThatItTouches) {
         b.addMaterial(simple::lambert(glm::vec3(0.5f)));
         b.add(simple::sphere(2, 5, true));
         const Scene scene = b.build();
-        const std::uint32_t first = 0;
-        const auto cells = surfaceAreas(scene, {&first, 1}, latticeOver(scene.bounds, side));
+        const auto cells = surfaceAreas(scene, 0, latticeOver(scene.bounds, side));
         EXPECT_EQ(cells.size(), touched);
         EXPECT_NEAR(areaOf(cells), simple::areaOf(scene.meshOf(scene.instances[0])), 1e-3);
     }
@@ -74,8 +73,7 @@ TEST(SurfaceAreas, OfAClosedSurfaceAreItsAreaInTheCellsThatItTouches) {
     b.addMaterial(simple::lambert(glm::vec3(0.5f)));
     b.add(simple::box(glm::vec3(0), glm::vec3(4), true));
     const Scene scene = b.build();
-    const std::uint32_t first = 0;
-    const auto cells = surfaceAreas(scene, {&first, 1}, latticeOver(scene.bounds, 4));
+    const auto cells = surfaceAreas(scene, 0, latticeOver(scene.bounds, 4));
     EXPECT_EQ(cells.size(), 56U);
     EXPECT_NEAR(areaOf(cells), 6 * 16, 1e-3);
 }
@@ -85,9 +83,8 @@ TEST(SurfaceAreas, CountBothSidesOfATwoSidedSurfaceAndNoneThatReflectsNothing) {
     b.addMaterial(simple::lambert(glm::vec3(0.5f)));
     b.add(simple::quad(glm::vec3(0), {0, 0, 2}, {2, 0, 0}));
     Scene scene = b.build();
-    const std::uint32_t first = 0;
     const Lattice lattice{.lower = glm::vec3(-1), .cell = 1, .size = glm::uvec3(4)};
-    const auto area = [&] { return areaOf(surfaceAreas(scene, {&first, 1}, lattice)); };
+    const auto area = [&] { return areaOf(surfaceAreas(scene, 0, lattice)); };
     EXPECT_NEAR(area(), 4, 1e-5);
     scene.materials[0].doubleSided = true;
     EXPECT_NEAR(area(), 8, 1e-5);
@@ -125,7 +122,18 @@ TEST(PhotonAreas, FollowAMovingObjectAsIfTheyWereMadeAnew) {
     EXPECT_FALSE(areas.follow(scene, lattices)) << "a colour has no area";
     scene.instances.pop_back();
     EXPECT_TRUE(areas.follow(scene, lattices));
+    EXPECT_EQ(areas.clipped(), 0U);
     EXPECT_NEAR(areaOf(areas.of(0)), 94 + 6, 2e-3);
+    scene.instances[1].dynamic = false; // the same places, summed otherwise
+    EXPECT_TRUE(areas.follow(scene, lattices));
+    EXPECT_NEAR(areaOf(areas.of(0)), 94 + 6, 2e-3);
+    scene.instances[1].toWorld[3].x = 1.2f;
+    EXPECT_TRUE(areas.follow(scene, lattices));
+    EXPECT_EQ(areas.clipped(), 1U) << "one static object of two";
+    PhotonAreas again;
+    again.follow(scene, lattices);
+    for (std::size_t k = 0; k < kPhotonLattices; ++k)
+        EXPECT_EQ(areas.of(k), again.of(k));
 }
 
 } // namespace
