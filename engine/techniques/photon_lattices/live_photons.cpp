@@ -44,8 +44,9 @@ LightingReport LivePhotons::update(const Scene& scene, const Trace& trace,
         if (relight(scene, trace, progress, cost, fieldMs)) {
             m_inputs = std::move(now);
             m_everLit = true;
-            report.bounces = m_lit.settings.paths.bounces;
             report.converged = m_rested || still == 0;
+            // What few photons bring is replaced, whatever number of bounces would suffice.
+            report.bounces = report.converged ? m_lit.settings.paths.bounces : 0;
         } else {
             report.converged = report.whole = false;
         }

@@ -392,6 +392,7 @@ TEST(PhotonLattices, TraceMorePhotonsOnceAtRest) {
     lit.scene.lights[0].position.y -= 0.3f;
     const LightingReport moving = lit.update();
     EXPECT_FALSE(moving.converged);
+    EXPECT_EQ(moving.bounces, 0U);
     EXPECT_LT(counterOf(moving, "emitted"), 0.3 * many);
     const LightingReport resting = lit.update();
     EXPECT_TRUE(resting.converged);
