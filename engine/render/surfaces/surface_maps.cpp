@@ -4,8 +4,13 @@
 #include "engine/gpu/barrier.h"
 #include "shaders/shared/gpu_frame.h"
 
+#include <algorithm>
 #include <cassert>
-#include <cstring>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
 
 namespace limn::render {
 
@@ -14,14 +19,22 @@ SurfaceMaps::SurfaceMaps(gpu::Device& device, const gpu::DescriptorSetLayout& fr
     : m_device(device), m_frameTypes(frameTypes), m_images(device),
       m_frame(device,
               {.size = sizeof(shared::GpuFrame),
-               .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-               .memory = gpu::MemoryKind::Upload,
+               .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                        VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                .name = "frame of surface maps"}),
       m_sampler(gpu::createSampler(
           device, {.filter = VK_FILTER_NEAREST, .mipmaps = VK_SAMPLER_MIPMAP_MODE_NEAREST})),
       m_pool(gpu::createDescriptorPool(device, 1, frameTypes)),
-      m_set(gpu::allocateSet(device, m_pool, frameLayout)) {
-    std::memset(m_frame.mapped, 0, sizeof(shared::GpuFrame));
+      m_set(gpu::allocateSet(device, m_pool, frameLayout)) {}
+
+/// From where a projection looks, by which normals are turned to the viewer. It is the point that
+/// the projection takes to depth alone; a parallel one has it infinitely far away.
+static glm::vec3 eyeOf(const glm::mat4& toClip) {
+    constexpr double kFar = 1e8; // m
+    const glm::dvec4 eye = glm::inverse(glm::dmat4(toClip))[2];
+    const double length = glm::length(glm::dvec3(eye));
+    return glm::vec3(glm::dvec3(eye) / std::max(std::abs(eye.w), length / kFar) *
+                     (eye.w < 0 ? -1. : 1.));
 }
 
 // A view without light reads the frame alone, but drivers look at all descriptors.
@@ -53,6 +66,10 @@ void SurfaceMaps::draw(GeometryPasses& geometry, const RenderScene& scene,
             view.view = View::Albedo;
             view.toClip = views[k].toClip;
             gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kAllReads); // after the last view
+            shared::GpuFrame frame{};
+            frame.eye = eyeOf(views[k].toClip);
+            gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kTransferWrite);
+            gpu::updateBuffer(m_device, cmd, m_frame, 0, std::as_bytes(std::span(&frame, 1)));
             m_images.forget();
             m_images.record(cmd, geometry, scene, materials, view, {size.x, size.y}, slot, m_set);
             gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kAllReads);

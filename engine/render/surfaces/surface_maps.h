@@ -30,7 +30,7 @@ private:
     gpu::Device& m_device;
     std::span<const VkDescriptorType> m_frameTypes;
     SurfaceImages m_images;
-    gpu::Buffer m_frame; ///< all 0, which is all that surfaces read of it
+    gpu::Buffer m_frame; ///< 0 but for the eye, which is all that surfaces read of it
     gpu::Sampler m_sampler;
     gpu::DescriptorPool m_pool;
     VkDescriptorSet m_set;

@@ -13,7 +13,7 @@
 namespace limn::device_photons_test {
 namespace {
 
-/// A room with a block of metal, a pane of glass, and a lamp of the kind.
+/// A room with a block and a mirrored ball of metal, a pane of glass, and a lamp of the kind.
 Scene room(LightKind kind) {
     simple::SceneBuilder b;
     b.addMaterial(simple::lambert({0.7f, 0.5f, 0.3f}));
@@ -25,9 +25,15 @@ Scene room(LightKind kind) {
     glass.ior = 1.4f;
     glass.thickness = 1;
     b.addMaterial(glass);
-    b.add(simple::box(glm::vec3(0), glm::vec3(4, 3, 5), kind != LightKind::Directional));
+    if (kind == LightKind::Directional) // a roof would keep its light out
+        b.add(simple::quad(glm::vec3(0), {0, 0, 5}, {4, 0, 0}));
+    else
+        b.add(simple::box(glm::vec3(0), glm::vec3(4, 3, 5), true));
     b.add(simple::box({1, 0, 1}, {1.8f, 1.2f, 1.6f}, false, 1));
-    b.add(simple::box({0.3f, 1.7f, 0.4f}, {3.3f, 1.8f, 4.2f}, false, 2));
+    b.add(simple::box({0.3f, 1.7f, 2.4f}, {1.9f, 1.8f, 4.2f}, false, 2));
+    const glm::mat4 mirrored(glm::vec4(-1, 0, 0, 0), glm::vec4(0, 0.8f, 0.2f, 0),
+                             glm::vec4(0, -0.2f, 1.1f, 0), glm::vec4(3.2f, 0.6f, 3.9f, 1));
+    b.add(simple::sphere(0.5f, 3, false, 1), mirrored);
     b.scene.lights = {{.name = "Lamp",
                        .kind = kind,
                        .position = {2.8137f, 2.4821f, 3.0219f},
@@ -62,6 +68,7 @@ protected:
 /// What becomes of photons, by texel.
 struct Bounces {
     std::size_t same = 0, all = 0;
+    std::array<std::size_t, 4> events{};      ///< of those alike: absorbed, and by PhotonEvent
     double largestPower = 0, largestTurn = 0; ///< difference where the event is the same
 };
 
@@ -94,6 +101,7 @@ TEST_F(DevicePhotonsTest, BouncesPhotonsAsTheCpuDoes) {
                 bounce.instance != start.instance)
                 continue;
             ++found.same;
+            ++found.events[event];
             EXPECT_NEAR(bounce.incident, start.flight.power.x, 1e-5f * brightest);
             EXPECT_LT(glm::distance(bounce.position, start.surface->position), 2e-4f);
             if (!scattered)
@@ -108,6 +116,8 @@ TEST_F(DevicePhotonsTest, BouncesPhotonsAsTheCpuDoes) {
         std::printf("kind %d: %zu of %zu photons alike, power to %.1e, direction to %.1e\n",
                     int(kind), found.same, found.all, found.largestPower, found.largestTurn);
         EXPECT_GT(found.all, 2000U);
+        for (const std::size_t count : found.events)
+            EXPECT_GT(count, 20U);
         EXPECT_GT(double(found.same), 0.998 * double(found.all));
         // Colours and normals have 16 bits.
         EXPECT_LT(found.largestPower, 1e-4);
