@@ -17,6 +17,8 @@ Scene court() {
     b.addMaterial(mirror({0.9f, 0.7f, 0.4f}));
     b.add(simple::box({-2.5f, 0, -2.7f}, {2.3f, 1.9f, 2.4f}, true));
     b.add(simple::box({2.1f, 0, -1}, {2.2f, 1.5f, 1}, false, 1));
+    // Below the floor, so that the floor lies in the faces of cells.
+    b.add(simple::quad({0, -1.9f, 0}, {0, 0, 0.1f}, {0.1f, 0, 0}));
     b.scene.lights = {{.kind = LightKind::Point,
                        .position = {-1.3f, 1.4f, 0.2f},
                        .color = {1, 0.8f, 0.5f},
