@@ -215,7 +215,7 @@ public:
 
     NearestCaches listAt(glm::vec3 p, glm::vec3 normal) const {
         NearestCaches list;
-        for (const std::size_t asked : {24, 64}) {
+        for (const std::size_t asked : {16, 64}) {
             list.cache.fill(NearestCaches::kNone);
             std::size_t count = 0;
             for (const bool facing : {true, false}) {
@@ -235,7 +235,7 @@ public:
     /// the nearest.
     std::uint32_t fitting(glm::vec3 p, glm::vec3 normal, float minCosine) const {
         std::uint32_t found = NearestCaches::kNone, first = NearestCaches::kNone;
-        for (const std::size_t asked : {4, 64}) {
+        for (const std::size_t asked : {1, 8, 64}) {
             nearest(p, normal, asked, [&](std::uint32_t c) {
                 if (first == NearestCaches::kNone)
                     first = c;
