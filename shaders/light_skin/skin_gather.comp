@@ -6,8 +6,6 @@
 #include "shaders/shared/compute_groups.glsl"
 #include "shaders/shared/gpu_skin_steps.h"
 
-layout(constant_id = 1) const float kEpsilon = 1e-6; // as kProxyEpsilon
-
 layout(push_constant) uniform Push { GpuSkinStep step; };
 layout(std430, binding = SKIN_STEP_CHOSEN) readonly buffer Chosen { GpuChosenLight chosen[]; };
 layout(std430, binding = SKIN_STEP_CACHES) readonly buffer Caches { GpuGatheringCache caches[]; };
@@ -55,12 +53,12 @@ void main() {
         const float r2 = max(dot(way, way), 1e-18);
         const float transfer = max(-dot(light.normal, way), 0.0) * max(dot(cache.normal, way), 0.0) /
                                (r2 * (light.area + kPi * r2));
-        addTo(diffuse, light.flux, transfer, light.weight * (kEpsilon + light.area * transfer), way);
+        addTo(diffuse, light.flux, transfer, light.weight * light.area * (step.epsilon + transfer), way);
         if (!glosses)
             continue;
         const float along = max(dot(way, mirrored), 0.0);
         const float lobe = pow(min(along * along / r2, 1.0), cache.exponent / 2.0) * transfer;
-        addTo(glossy, light.flux, lobe, light.weight * (kEpsilon + light.area * lobe), way);
+        addTo(glossy, light.flux, lobe, light.weight * light.area * (step.epsilon + lobe), way);
     }
     glossy.light *= (cache.exponent + 2.0) / (2.0 * kPi);
     if (!glosses)

@@ -70,7 +70,7 @@ struct GpuSkinStep {
     uint columns, rows, samples, count; // of the map; of the view; lights to choose, or in the batch
     uint first, byFlux, all, add;       // of the batch; of the draws; every texel counts; the sums go on
     vec3 eye; float nearest;            // m; m, below which lights beside a sample count alike
-    uint caches; uint pad0, pad1, pad2;
+    uint caches; float epsilon; uint pad0, pad1; // m^-2; weight of an area that does not light a cache
 };
 // clang-format on
 

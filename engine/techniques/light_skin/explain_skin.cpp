@@ -12,7 +12,7 @@ namespace limn {
 namespace {
 
 /// The chosen lights of each object.
-std::map<std::uint32_t, GatheringLights> byInstance(const SkinLight& light) {
+std::map<std::uint32_t, GatheringLights> byInstance(const SkinLight& light, float diagonal) {
     std::map<std::uint32_t, ChosenLights> chosen;
     for (std::size_t i = 0; i < light.chosen.light.size(); ++i) {
         ChosenLights& part = chosen[light.lights.instance[light.chosen.light[i]]];
@@ -21,7 +21,7 @@ std::map<std::uint32_t, GatheringLights> byInstance(const SkinLight& light) {
     }
     std::map<std::uint32_t, GatheringLights> from;
     for (const auto& [instance, part] : chosen)
-        from.emplace(instance, gatheringLights(light.lights, part));
+        from.emplace(instance, gatheringLights(light.lights, part, diagonal));
     return from;
 }
 
@@ -54,7 +54,8 @@ Explanation explainSkin(const SkinState& state, const SkinInputs& inputs, const 
     std::map<std::uint32_t, glm::dvec3> byObject;
     for (const RsmSource& source : inputs.sources) {
         glm::dvec3 ofLight(0);
-        for (const auto& [instance, from] : byInstance(*state.lightOf(source.shape))) {
+        for (const auto& [instance, from] :
+             byInstance(*state.lightOf(source.shape), state.objects().caches()->diagonal)) {
             if (std::ranges::find(options.black, instance) != options.black.end())
                 continue;
             const glm::dvec3 value =

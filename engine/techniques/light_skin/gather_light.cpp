@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/techniques/light_skin/lanes.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -49,7 +50,10 @@ Lanes dot(const std::array<Lanes, 3>& a, glm::vec3 b) {
 
 } // namespace
 
-GatheringLights gatheringLights(const VirtualLights& lights, const ChosenLights& chosen) {
+GatheringLights gatheringLights(const VirtualLights& lights, const ChosenLights& chosen,
+                                float diagonal) {
+    const double epsilon =
+        double(kProxyEpsilon) / std::max(double(diagonal) * double(diagonal), 1e-30);
     GatheringLights from;
     const std::size_t padded = (chosen.light.size() + kSkinLanes - 1) / kSkinLanes * kSkinLanes;
     from.area.assign(padded, 0);
@@ -67,7 +71,7 @@ GatheringLights gatheringLights(const VirtualLights& lights, const ChosenLights&
             from.flux[k][i] = lights.flux[k][light] * chosen.weight[i];
         }
         const glm::dvec3 x(lights.positionOf(light));
-        const auto weight = double(chosen.weight[i]);
+        const double weight = double(chosen.weight[i]) * double(lights.area[light]) * epsilon;
         from.allWeight += weight;
         from.allFirst += weight * x;
         from.allSecond += weight * x * x;
@@ -75,16 +79,14 @@ GatheringLights gatheringLights(const VirtualLights& lights, const ChosenLights&
     return from;
 }
 
-/// Adds w = g epsilon of all lights, lit by them or not: sums of powers of x - c follow from those
-/// of x.
+/// Adds g epsilon A / D^2 of all lights, whether they light the cache or not: sums of powers of x -
+/// c follow from those of x.
 static void addEpsilon(const GatheringLights& from, const GatheringCache& cache, ProxySums& sums) {
     const glm::dvec3 c(cache.position);
-    const double epsilon = double(kProxyEpsilon);
-    sums.weight = float(double(sums.weight) + epsilon * from.allWeight);
-    sums.first = glm::vec3(glm::dvec3(sums.first) + epsilon * (from.allFirst - c * from.allWeight));
-    sums.second =
-        glm::vec3(glm::dvec3(sums.second) +
-                  epsilon * (from.allSecond - 2. * c * from.allFirst + c * c * from.allWeight));
+    sums.weight = float(double(sums.weight) + from.allWeight);
+    sums.first = glm::vec3(glm::dvec3(sums.first) + from.allFirst - c * from.allWeight);
+    sums.second = glm::vec3(glm::dvec3(sums.second) + from.allSecond - 2. * c * from.allFirst +
+                            c * c * from.allWeight);
 }
 
 CacheSums gatherLight(const GatheringLights& from, const GatheringCache& cache) {

@@ -20,13 +20,16 @@ struct GatheringLights {
     std::array<std::vector<float>, 3> position, normal;
     std::array<std::vector<float>, 3> flux; ///< times the weight
     std::vector<float> area, weight;
-    /// Sums of weights, and of these times the first and second powers of the positions.
+    /// Sums of weight times epsilon A / D^2, and of these times the first and second powers of the
+    /// positions.
     double allWeight = 0;
     glm::dvec3 allFirst{0}, allSecond{0};
 
     std::size_t bytes() const { return 11 * sizeof(float) * weight.size(); }
 };
-GatheringLights gatheringLights(const VirtualLights& lights, const ChosenLights& chosen);
+/// `diagonal`: D, of the scene [m].
+GatheringLights gatheringLights(const VirtualLights& lights, const ChosenLights& chosen,
+                                float diagonal);
 
 /// What a cache receives of one kind of light, from a light of colour 1 and strength 1.
 struct ProxySums {
@@ -50,14 +53,16 @@ struct GatheringCache {
     float exponent = 1;    ///< of its lobe about `mirrored`
 };
 
-/// Weight of virtual lights that do not light a cache, so that it has a proxy all the same.
+/// Weight of virtual lights that do not light a cache, so that it has a proxy all the same, as a
+/// share of the form factor of a disc as far away as the scene is large.
 inline constexpr float kProxyEpsilon = 1e-6f;
 
 /// Sums of a cache over virtual lights of flux Phi, area A and weight g:
-///   E = sum g Phi cos+ cos+ / (A + pi r^2),               w = g (epsilon + F)
-///   G = sum g Phi (k + 2) / 2 pi cos^k cos+ cos+ / (A + pi r^2),   w = g (epsilon + cos^k F)
+///   E = sum g Phi cos+ cos+ / (A + pi r^2),               w = g (epsilon A / D^2 + F)
+///   G = sum g Phi (k + 2) / 2 pi cos^k cos+ cos+ / (A + pi r^2),   w = g (... + cos^k F)
 /// with F = A cos+ cos+ / (A + pi r^2). Bischoff, Schwandt, Broll. 2017, equations 3 to 6 and 13 to
-/// 15, the last of which lacks the cosines.
+/// 15, the last of which lacks the cosines. In the paper epsilon stands alone. It then outweighs F
+/// where texels are small, and draws proxies to the mean of what does not light them.
 CacheSums gatherLight(const GatheringLights& from, const GatheringCache& cache);
 
 /// The same for all caches. `eye` null: nothing glossy. `sums` is incomplete when cancelled.

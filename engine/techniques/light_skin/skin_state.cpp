@@ -60,7 +60,8 @@ bool SkinState::gather(const SkinInputs& now, const Progress& progress, SkinCost
             continue;
         light.sumsOf = 0;
         gatherLights(*m_objects.caches(), m_objects.exponents(),
-                     gatheringLights(light.lights, light.chosen), now.eye(), light.sums, progress);
+                     gatheringLights(light.lights, light.chosen, m_objects.caches()->diagonal),
+                     now.eye(), light.sums, progress);
         if (progress.cancelled())
             return false;
         light.sumsOf = m_objects.gathering();

@@ -114,7 +114,7 @@ GatheringCache cacheAbove() {
 
 double irradiance(const VirtualLights& lights, const ChosenLights& chosen) {
     return double(
-        luminance(gatherLight(gatheringLights(lights, chosen), cacheAbove()).diffuse.light));
+        luminance(gatherLight(gatheringLights(lights, chosen, 1), cacheAbove()).diffuse.light));
 }
 
 /// Mean, deviation and rms error of the irradiance over shifts of the points, as shares of that of

@@ -42,7 +42,7 @@ GatheringLights randomLights(std::mt19937& random, float low) {
     ChosenLights chosen = allLights(lights);
     for (float& weight : chosen.weight)
         weight = 1 + 0.5f * uniform(random);
-    return gatheringLights(lights, chosen);
+    return gatheringLights(lights, chosen, 1);
 }
 
 TEST(SkinProxies, GiveBackWhatTheirCacheReceives) {
@@ -83,7 +83,7 @@ TEST(SkinProxies, GatherWhatTheFormulasSay) {
                          .exponent = 3.5f};
     ChosenLights chosen = allLights(lights);
     chosen.weight = {1, 2, 3};
-    const CacheSums sums = gatherLight(gatheringLights(lights, chosen), cache);
+    const CacheSums sums = gatherLight(gatheringLights(lights, chosen, 0.01f), cache);
     double e = 0, g = 0, w = 0, wg = 0;
     glm::dvec3 first(0);
     for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -98,9 +98,9 @@ TEST(SkinProxies, GatherWhatTheFormulasSay) {
         e += weight * flux * transfer;
         g +=
             weight * flux * transfer * lobe * (double(cache.exponent) + 2) / (2 * std::numbers::pi);
-        w += weight * (1e-6 + area * transfer);
-        wg += weight * (1e-6 + area * transfer * lobe);
-        first += d * weight * (1e-6 + area * transfer);
+        w += weight * area * (1e-2 + transfer); // 1e-6 / D^2
+        wg += weight * area * (1e-2 + transfer * lobe);
+        first += d * weight * area * (1e-2 + transfer);
     }
     EXPECT_NEAR(double(sums.diffuse.light.x) / e, 1, 1e-5);
     EXPECT_NEAR(double(sums.glossy.light.x) / g, 1, 1e-5);
@@ -142,7 +142,7 @@ struct Plane {
         const std::vector<float> exponents =
             eye ? glossExponents(scene, *caches) : std::vector<float>();
         std::vector<CacheSums> sums;
-        gatherLights(*caches, exponents, gatheringLights(lights, allLights(lights)),
+        gatherLights(*caches, exponents, gatheringLights(lights, allLights(lights), 1),
                      eye ? &*eye : nullptr, sums);
         SkinPart::Light light{caches, {}, std::vector<glm::vec3>(2 * caches->size()), eye};
         for (std::size_t c = 0; c < caches->size(); ++c) {
@@ -176,7 +176,7 @@ TEST(SkinProxies, InterpolateBetterThanIrradianceDoesNearALight) {
     };
     for (const Case& k : {Case{0.5f, 0.023f, 1.08f}, Case{1, -0.046f, -0.023f}}) {
         const VirtualLights lights = lightAt({0, k.height, 0});
-        const GatheringLights from = gatheringLights(lights, allLights(lights));
+        const GatheringLights from = gatheringLights(lights, allLights(lights), 1);
         glm::vec3 place(0);
         float flux = 0, mean = 0;
         for (const float x : {0.f, 1.f}) {
@@ -200,7 +200,7 @@ TEST(SkinProxies, InterpolateBetterThanIrradianceDoesNearALight) {
 // The error falls with the square of the caches' distance.
 TEST(SkinProxies, LightAPlaneAsTheLightDoes) {
     const VirtualLights lights = lightAt({0.2f, 1, -0.1f});
-    const GatheringLights from = gatheringLights(lights, allLights(lights));
+    const GatheringLights from = gatheringLights(lights, allLights(lights), 1);
     std::vector<double> worst;
     for (const float spacing : {0.08f, 0.04f, 0.02f}) {
         const Plane plane(spacing, 1, 2);

@@ -57,7 +57,7 @@ TEST(SkinRooms, LightASphereEvenlyFromAProxyInItsMiddle) {
         LitBySkin lit(sphereRoom(k.map, kAlbedo, kIntensity));
         lit.update();
         const VirtualLights lights = texelsOfSphere(std::uint32_t(k.map), kRadius, kAlbedo);
-        const GatheringLights from = gatheringLights(lights, allLights(lights));
+        const GatheringLights from = gatheringLights(lights, allLights(lights), 1);
         const GatheringCache middle{.position = {kRadius, 0, 0}, .normal = {-1, 0, 0}};
         const CacheSums sums = gatherLight(from, middle);
         const float atCache = kIntensity * sums.diffuse.light.x / truth - 1;
@@ -100,7 +100,7 @@ TEST(SkinRooms, ReceiveTheSquaresLightButForTheSizeOfDiscs) {
     const TraceScene trace(scene);
     const Light sun{.kind = LightKind::Directional, .strength = 1};
     const VirtualLights lights = castVirtualLights(trace, scene, sun, kMap);
-    const GatheringLights from = gatheringLights(lights, allLights(lights));
+    const GatheringLights from = gatheringLights(lights, allLights(lights), 1);
     struct Case {
         float texels, error;
     };
@@ -190,8 +190,9 @@ double seenShare(const Scene& scene, glm::vec3 p) {
             seen.light.push_back(i);
             seen.weight.push_back(1);
         }
-    return double(gatherLight(gatheringLights(lights, seen), cache).diffuse.light.x /
-                  gatherLight(gatheringLights(lights, allLights(lights)), cache).diffuse.light.x);
+    return double(
+        gatherLight(gatheringLights(lights, seen, 1), cache).diffuse.light.x /
+        gatherLight(gatheringLights(lights, allLights(lights), 1), cache).diffuse.light.x);
 }
 
 // An object before a lit wall throws a shadow on what lies behind it; how wide depends on the

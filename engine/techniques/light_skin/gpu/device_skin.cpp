@@ -99,6 +99,7 @@ bool DeviceSkin::gather(const SkinInputs& now, const Progress& progress, Cost& c
                                .defence = s.defence,
                                .all = s.all,
                                .nearest = nearestSample(m_objects.caches()->diagonal),
+                               .diagonal = m_objects.caches()->diagonal,
                                .eye = now.eye()},
                               kept.sums, progress))
             return false;

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -80,8 +79,7 @@ GpuSkinLights::GpuSkinLights(gpu::Device& device, Viewport& viewport)
     m_sumColumns = pipeline(kSkinSumsComp, "sums of columns", {0});
     m_sumAlong = pipeline(kSkinSumsComp, "sums along columns", {1});
     m_choose = pipeline(kSkinChooseComp, "choice of lights");
-    m_gather =
-        pipeline(kSkinGatherComp, "gathering", {std::bit_cast<std::uint32_t>(kProxyEpsilon)});
+    m_gather = pipeline(kSkinGatherComp, "gathering");
 }
 
 Result<std::unique_ptr<GpuSkinLights>> GpuSkinLights::create(gpu::Device& device,
@@ -240,7 +238,8 @@ bool GpuSkinLights::gather(const MappedLights& lights, const GatherOptions& opti
         .all = chosen.all ? 1U : 0U,
         .eye = options.eye ? *options.eye : glm::vec3(0),
         .nearest = options.nearest,
-        .caches = m_cacheCount};
+        .caches = m_cacheCount,
+        .epsilon = kProxyEpsilon / std::max(options.diagonal * options.diagonal, 1e-30f)};
     const std::uint32_t end = chosen.all ? lights.count() : 1; // of batches
     while (step.first < end) {
         progress.at("light caches", float(step.first) / float(end));

@@ -31,6 +31,7 @@ struct GatherOptions {
     float defence = 0.1f;    ///< share of the draws that is by flux alone
     bool all = false;
     float nearest = 1;              ///< as for importances() [m]
+    float diagonal = 1;             ///< as for gatheringLights() [m]
     const glm::vec3* eye = nullptr; ///< null: nothing glossy
 };
 

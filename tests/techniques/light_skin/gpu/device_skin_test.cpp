@@ -52,6 +52,14 @@ Difference differenceOf(std::span<const glm::vec3> a, std::span<const glm::vec3>
     return {found.largest / highest, std::sqrt(squares) / highest};
 }
 
+/// Mean ways to what caches receive.
+std::vector<glm::vec3> waysOf(const std::vector<CacheSums>& sums) {
+    std::vector<glm::vec3> all;
+    for (const CacheSums& s : sums)
+        all.push_back(s.diffuse.first / s.diffuse.weight);
+    return all;
+}
+
 /// What caches receive, diffuse or glossy.
 std::vector<glm::vec3> lightOf(const std::vector<CacheSums>& sums, bool glossy) {
     std::vector<glm::vec3> all;
@@ -95,9 +103,11 @@ TEST_F(DeviceSkinTest, GathersWhatTheCpuGathersOfAllTexels) {
         const Light unit = unitLight(lamp);
         const VirtualLights lights = castVirtualLights(trace, scene, unit, 32);
         std::vector<CacheSums> expected, found;
-        gatherLights(caches, exponents, gatheringLights(lights, allLights(lights)), &eye, expected);
+        gatherLights(caches, exponents, gatheringLights(lights, allLights(lights), 1), &eye,
+                     expected);
         const MappedLights mapped = lit->cast(unit, scene.bounds, 32);
         ASSERT_TRUE(lit->gather(mapped, {.all = true, .eye = &eye}, found));
+        EXPECT_LT(differenceOf(waysOf(found), waysOf(expected)).rms, 2e-3);
         for (const bool glossy : {false, true}) {
             const Difference d = differenceOf(lightOf(found, glossy), lightOf(expected, glossy));
             std::printf("light %d, %s: largest difference %.2e, rms %.2e\n", int(kind),
@@ -127,7 +137,7 @@ TEST_F(DeviceSkinTest, ChoosesTheTexelsOfTheCpu) {
         const ChosenLights chosen =
             chooseLights(lights, importances(lights, samples, 0.2f), {.count = 300});
         std::vector<CacheSums> expected, found;
-        gatherLights(caches, {}, gatheringLights(lights, chosen), nullptr, expected);
+        gatherLights(caches, {}, gatheringLights(lights, chosen, 1), nullptr, expected);
         const MappedLights mapped = onDevice->cast(unit, scene.bounds, 64);
         ASSERT_TRUE(onDevice->gather(mapped, {.count = 300, .nearest = 0.2f}, found));
         const Difference d = differenceOf(lightOf(found, false), lightOf(expected, false));
