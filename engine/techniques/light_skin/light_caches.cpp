@@ -83,8 +83,8 @@ float MeshSkins::diagonalOf(const Scene& scene) {
     return diagonal;
 }
 
-/// `least`, or more where there would be too many cubes: a triangle meets about perimeter / edge +
-/// area / edge^2 of them, besides one.
+/// `least`, or more where there would be too many cubes or pieces: surfaces meet about area /
+/// edge^2 cubes, and each triangle about perimeter / edge of them besides one.
 float MeshSkins::spacingOf(const Scene& scene, float least) {
     double area = 0, perimeter = 0;
     for (const Instance& instance : scene.instances) {
@@ -94,8 +94,7 @@ float MeshSkins::spacingOf(const Scene& scene, float least) {
         area += sides * extent.area * scale * scale;
         perimeter += sides * extent.perimeter * scale;
     }
-    const double edge =
-        (perimeter + std::sqrt(perimeter * perimeter + 4 * kMostCubes * area)) / (2 * kMostCubes);
+    const double edge = std::max(std::sqrt(area / kMostCubes), perimeter / kMostPieces);
     return std::max(least, float(2 * edge));
 }
 

@@ -60,9 +60,9 @@ struct SkinLayout {
     bool operator==(const SkinLayout&) const = default;
 };
 
-/// Most cubes that the caches of a scene are made from, besides one for each triangle. Spacing
-/// grows where there would be more.
-inline constexpr double kMostCubes = 1 << 18;
+/// Most cubes that the caches of a scene are made from, and most pieces of triangles in them
+/// besides one of each triangle. Spacing grows where there would be more.
+inline constexpr double kMostCubes = 1 << 18, kMostPieces = 1 << 21;
 
 /// Caches of meshes, kept by mesh, spacing and sides, in object space. They do not change where
 /// objects move. Not thread-safe.
