@@ -93,6 +93,24 @@ render probe-reflections "Reflections marched from what one probe sees: teal one
 render sparse-negative "Texels to which few bands of harmonics bring less than no light are magenta" cornell "${square[@]}" \
     --technique sparse-probes --overlay sparse-negative
 
+lamp=(--light 'rect pos=0,5.4,0 size=1.3,1 nits=20')
+on_cpu=(--device cpu --gather-rays 0 --near-rays 0 --spp 16)
+render photon-caustics "Caustics of a ring of metal and a ball of glass, by a million photons in lattices" caustics "${wide[@]}" \
+    --technique photon-lattices --set photon-lattices.photons=1000000 "${on_cpu[@]}"
+render photon-cells "Irradiance by photon lattices without a blur: the cells of the coarse lattices show" cornell "${square[@]}" "${lamp[@]}" \
+    --technique photon-lattices --set photon-lattices.blur=0 --view irradiance "${on_cpu[@]}"
+render photons "Stored photons, by what they did last" caustics "${wide[@]}" --technique photon-lattices --overlay photons
+render skin-street "A street in the sun by LightSkin: coloured planes light the houses opposite" generated:coloured-street "${wide[@]}" \
+    --technique light-skin "${on_cpu[@]}"
+render skin-caches "Light caches of LightSkin, as discs of the area that each stands for" cornell "${square[@]}" "${lamp[@]}" \
+    --technique light-skin --overlay skin-caches
+render skin-leak "Irradiance in a sealed dark room: proxy lights of LightSkin shine through the wall" generated:23 "${wide[@]}" \
+    --camera "Dark room" --technique light-skin --view irradiance "${on_cpu[@]}"
+render volume-caches "Caches of dynamic radiance volumes, by grid: they lie around what the view shows" cornell "${square[@]}" "${lamp[@]}" \
+    --technique radiance-volumes --overlay volume-caches
+render volume-shadow "Irradiance by dynamic radiance volumes with the published cones, which the sender's own wall darkens" cornell \
+    "${square[@]}" "${lamp[@]}" --technique radiance-volumes --set radiance-volumes.shadow=2 --view irradiance "${on_cpu[@]}"
+
 section "The editor" "[The editor](editor.md) says how to work with it."
 build/release/journeys --gtest_filter='Gallery.*'
 cp build/journeys/GalleryOfWindows/*.png "$out/"

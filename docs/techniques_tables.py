@@ -10,9 +10,11 @@ import sys
 
 MIB = 1 << 20
 SHORT = {"Illuminance composition": "illuminance", "Ambient": "ambient", "Light propagation volumes": "lpv",
-         "Light field probes": "probes", "Sparse probes": "sparse"}
+         "Light field probes": "probes", "Sparse probes": "sparse", "Photon lattices": "photons",
+         "LightSkin": "skin", "Dynamic radiance volumes": "volumes"}
 SHOWN = {"Illuminance composition": "medium", "Light propagation volumes": "resolution 32",
-         "Light field probes": "count 256", "Sparse probes": "medium"}
+         "Light field probes": "count 256", "Sparse probes": "medium", "Photon lattices": "photons 20000",
+         "LightSkin": "vals 2048", "Dynamic radiance volumes": "read 32"}
 # Bertilsson et al., Real-Time Global Illumination in Web-Browsers, 2018, tables 3 and 4: the frame on
 # change less the idle frame [ms].
 THESIS = {"Sponza": {"Light field probes": 8.92, "Sparse probes": 2.10, "Light propagation volumes": 3.69},
