@@ -83,9 +83,9 @@ float MeshSkins::diagonalOf(const Scene& scene) {
     return diagonal;
 }
 
-/// `least`, or more where there would be too many cubes or pieces: surfaces meet about area /
+/// `minimum`, or more where there would be too many cubes or pieces: surfaces meet about area /
 /// edge^2 cubes, and each triangle about perimeter / edge of them besides one.
-float MeshSkins::spacingOf(const Scene& scene, float least) {
+float MeshSkins::spacingOf(const Scene& scene, float minimum) {
     double area = 0, perimeter = 0;
     for (const Instance& instance : scene.instances) {
         const Extent& extent = extentOf(scene, instance.mesh);
@@ -94,8 +94,8 @@ float MeshSkins::spacingOf(const Scene& scene, float least) {
         area += sides * extent.area * scale * scale;
         perimeter += sides * extent.perimeter * scale;
     }
-    const double edge = std::max(std::sqrt(area / kMostCubes), perimeter / kMostPieces);
-    return std::max(least, float(2 * edge));
+    const double edge = std::max(std::sqrt(area / kMaxCubes), perimeter / kMaxPieces);
+    return std::max(minimum, float(2 * edge));
 }
 
 std::optional<MeshSkins::Key> MeshSkins::keyOf(const Scene& scene, const Instance& instance,

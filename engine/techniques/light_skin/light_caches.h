@@ -62,7 +62,7 @@ struct SkinLayout {
 
 /// Most cubes that the caches of a scene are made from, and most pieces of triangles in them
 /// besides one of each triangle. Spacing grows where there would be more.
-inline constexpr double kMostCubes = 1 << 18, kMostPieces = 1 << 21;
+inline constexpr double kMaxCubes = 1 << 18, kMaxPieces = 1 << 21;
 
 /// Caches of meshes, kept by mesh, spacing and sides, in object space. They do not change where
 /// objects move. Not thread-safe.
@@ -88,7 +88,7 @@ private:
     };
     const Extent& extentOf(const Scene& scene, std::uint32_t mesh);
     float diagonalOf(const Scene& scene);
-    float spacingOf(const Scene& scene, float least);
+    float spacingOf(const Scene& scene, float minimum);
 
     /// None for an instance without extent.
     static std::optional<Key> keyOf(const Scene& scene, const Instance& instance,

@@ -63,8 +63,8 @@ ProxyLight glossyProxy(const GatheringCache& cache, std::span<const ProxySums> o
     if (!(proxy.fluxOfLight > 0))
         return proxy;
     const glm::vec3 direction = glm::normalize(proxy.position - cache.position);
-    const float least = kMinProxyLobe * (cache.exponent + 2) / (2 * kProxyPi);
-    proxy.fluxOfLight /= std::max(glossLobe(cache.exponent, cache.mirrored, direction), least);
+    const float minLobe = kMinProxyLobe * (cache.exponent + 2) / (2 * kProxyPi);
+    proxy.fluxOfLight /= std::max(glossLobe(cache.exponent, cache.mirrored, direction), minLobe);
     return proxy;
 }
 

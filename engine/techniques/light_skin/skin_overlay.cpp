@@ -23,7 +23,7 @@ namespace {
 
 constexpr float kMarkPi = std::numbers::pi_v<float>;
 constexpr std::size_t kShownVirtualLights = 8192; ///< of each light, besides the chosen ones
-constexpr std::size_t kMostProxies = 4000;        ///< when none is picked
+constexpr std::size_t kMaxProxies = 4000;         ///< when none is picked
 constexpr float kDotScale = 0.1f;                 ///< radius of dots over the caches' spacing
 constexpr std::uint32_t kWayDots = 24;            ///< from a cache to its proxy
 constexpr std::uint32_t kSphereDots = 64;         ///< on a proxy's sphere
@@ -114,7 +114,7 @@ OverlayData proxyOverlay(const LitSkin& lit, std::uint32_t picked) {
     out.legend.title = "Proxy lights";
     if (picked >= count) {
         const float mean = meanLuminance({lit.flux.data(), count});
-        const std::size_t step = (count + kMostProxies - 1) / kMostProxies;
+        const std::size_t step = (count + kMaxProxies - 1) / kMaxProxies;
         for (std::size_t c = 0; c < count; c += std::max<std::size_t>(step, 1))
             addDot(lit.proxies[c].diffuse.position, kDotScale * caches.spacing,
                    lightColor(lit.flux[c], mean), out);

@@ -9,42 +9,26 @@
 #include "engine/techniques/photon_lattices/splat_part.h"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace limn {
 
 namespace {
 
-/// The material with everything reset that does not affect how it reflects and passes light on.
-Material scatteringPart(Material m) {
-    const Material plain;
-    m.name.clear();
-    m.emission = plain.emission;
-    m.normalScale = plain.normalScale;
-    m.normalTexture = plain.normalTexture;
-    m.emissiveTexture = plain.emissiveTexture;
-    m.emissiveFlipbook = plain.emissiveFlipbook;
-    if (m.metallic == 0 && m.transmission == 0)
-        m.roughness = plain.roughness;
-    return m;
-}
-
-PhotonSurfaces surfacesOf(const Scene& scene) {
-    PhotonSurfaces s{scene.assets, {}, {}, scene.bounds};
-    for (const Instance& i : scene.instances)
-        s.instances.push_back({i.mesh, i.material, i.toWorld});
-    std::ranges::transform(scene.materials, std::back_inserter(s.materials), scatteringPart);
+/// What paths of photons depend on besides sources and settings.
+RsmSurfaces surfacesOf(const Scene& scene) {
+    RsmSurfaces s = rsmSurfacesOf(scene);
+    for (std::size_t m = 0; m < s.materials.size(); ++m)
+        if (s.materials[m].metallic != 0 || s.materials[m].transmission != 0)
+            s.materials[m].roughness = scene.materials[m].roughness;
     return s;
 }
 
 std::vector<ShiningSource> sourcesOf(const Scene& scene, const PhotonSettings& settings) {
     std::vector<ShiningSource> sources;
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
-        if (const Light& light = scene.lights[i]; shines(light))
-            sources.push_back({.source = {.shape = unitLight(light)},
-                               .colour = light.color * light.strength,
-                               .index = i});
+    for (const RsmSource& light : rsmSourcesOf(scene))
+        sources.push_back(
+            {.source = {.shape = light.shape}, .colour = light.colour, .index = light.index});
     for (std::uint32_t m = 0; m < scene.materials.size() && settings.emitters; ++m)
         if (const Material& material = scene.materials[m]; emits(material))
             sources.push_back({.source = {.origin = PhotonOrigin::Emitters,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/progress.h"
+#include "engine/rsm/rsm_inputs.h"
 #include "engine/techniques/photon_lattices/photon.h"
 #include "engine/techniques/photon_lattices/photon_injection.h"
 #include "engine/techniques/photon_lattices/photon_settings.h"
@@ -37,23 +38,9 @@ struct ShiningSource {
     bool operator==(const ShiningSource&) const = default;
 };
 
-/// What paths of photons depend on besides sources and settings.
-struct PhotonSurfaces {
-    struct Placed {
-        std::uint32_t mesh, material;
-        glm::mat4 toWorld;
-        bool operator==(const Placed&) const = default;
-    };
-    std::shared_ptr<const Assets> assets;
-    std::vector<Placed> instances;
-    std::vector<Material> materials; ///< as far as they affect reflection
-    Bounds bounds;
-    bool operator==(const PhotonSurfaces&) const = default;
-};
-
 /// Everything that the light of a scene depends on.
 struct PhotonInputs {
-    PhotonSurfaces surfaces;
+    RsmSurfaces surfaces; ///< with the roughness of metals and of what transmits light
     PhotonSettings settings;
     std::vector<ShiningSource> sources;
     bool operator==(const PhotonInputs&) const = default;
@@ -99,7 +86,7 @@ public:
 private:
     PhotonLattices m_lattices;
     PhotonAreas m_areas;
-    PhotonSurfaces m_surfaces; ///< of the photons
+    RsmSurfaces m_surfaces;    ///< of the photons
     PathSettings m_paths;      ///< the same
     InjectionSettings m_cells; ///< of their sums
     std::vector<std::shared_ptr<const InjectedPhotons>> m_sources;

@@ -6,6 +6,7 @@
 #include "engine/lightmap/texel_points.h"
 #include "tests/core/sweep.h"
 #include "tests/techniques/light_skin/lit_by_skin.h"
+#include "tests/techniques/two_lamps.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -28,17 +29,7 @@ Scene room(float scale = 1) {
     b.add(simple::box(glm::vec3(0), scale * glm::vec3(4, 3, 5), true));
     b.add(simple::box(scale * glm::vec3(1, 0, 1), scale * glm::vec3(1.8f, 1.2f, 1.6f), false),
           glm::mat4(1), true);
-    b.scene.lights = {{.name = "Red",
-                       .kind = LightKind::Point,
-                       .position = scale * glm::vec3(3, 2.5f, 1),
-                       .color = glm::vec3(1, 0.2f, 0.1f),
-                       .strength = 5 * scale * scale},
-                      {.name = "Blue",
-                       .kind = LightKind::Rectangle,
-                       .position = scale * glm::vec3(1.5f, 2.9f, 4),
-                       .color = glm::vec3(0.1f, 0.3f, 1),
-                       .strength = 7,
-                       .size = scale * glm::vec2(0.7f, 0.4f)}};
+    b.scene.lights = twoLamps(scale);
     b.scene.technique.settings = {{"light-skin.map_size", 24},
                                   {"light-skin.vals", 256},
                                   {"light-skin.samples", 64},

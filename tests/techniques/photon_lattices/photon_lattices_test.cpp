@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/field/field_reading.h"
 #include "tests/techniques/photon_lattices/lit_by_photons.h"
+#include "tests/techniques/two_lamps.h"
 
 #include <gtest/gtest.h>
 
@@ -24,17 +25,7 @@ Scene room(float scale = 1) {
     b.scene.materials[1].roughness = 0.2f;
     b.add(simple::box(glm::vec3(0), scale * glm::vec3(4, 3, 5), true));
     b.add(simple::box(scale * glm::vec3(1, 0, 1), scale * glm::vec3(1.8f, 1.2f, 1.6f), false, 1));
-    b.scene.lights = {{.name = "Red",
-                       .kind = LightKind::Point,
-                       .position = scale * glm::vec3(3, 2.5f, 1),
-                       .color = glm::vec3(1, 0.2f, 0.1f),
-                       .strength = 5 * scale * scale},
-                      {.name = "Blue",
-                       .kind = LightKind::Rectangle,
-                       .position = scale * glm::vec3(1.5f, 2.9f, 4),
-                       .color = glm::vec3(0.1f, 0.3f, 1),
-                       .strength = 7,
-                       .size = scale * glm::vec2(0.7f, 0.4f)}};
+    b.scene.lights = twoLamps(scale);
     return b.build();
 }
 

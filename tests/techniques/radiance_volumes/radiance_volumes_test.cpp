@@ -5,6 +5,7 @@
 #include "engine/field/field_reading.h"
 #include "engine/techniques/radiance_volumes/area_lights.h"
 #include "tests/techniques/radiance_volumes/lit_by_volumes.h"
+#include "tests/techniques/two_lamps.h"
 
 #include <gtest/gtest.h>
 
@@ -24,17 +25,7 @@ Scene room(float scale = 1) {
     b.addMaterial(simple::lambert({0.7f, 0.5f, 0.3f}));
     b.add(simple::box(glm::vec3(0), scale * glm::vec3(4, 3, 5), true));
     b.add(simple::box(scale * glm::vec3(1, 0, 1), scale * glm::vec3(1.8f, 1.2f, 1.6f), false));
-    b.scene.lights = {{.name = "Red",
-                       .kind = LightKind::Point,
-                       .position = scale * glm::vec3(3, 2.5f, 1),
-                       .color = glm::vec3(1, 0.2f, 0.1f),
-                       .strength = 5 * scale * scale},
-                      {.name = "Blue",
-                       .kind = LightKind::Rectangle,
-                       .position = scale * glm::vec3(1.5f, 2.9f, 4),
-                       .color = glm::vec3(0.1f, 0.3f, 1),
-                       .strength = 7,
-                       .size = scale * glm::vec2(0.7f, 0.4f)}};
+    b.scene.lights = twoLamps(scale);
     b.scene.technique.settings = {{"radiance-volumes.read", 16},
                                   {"radiance-volumes.map", 32},
                                   {"radiance-volumes.caches", 500},
