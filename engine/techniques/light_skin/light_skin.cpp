@@ -2,6 +2,7 @@
 #include "engine/techniques/light_skin/light_skin.h"
 
 #include "engine/core/stopwatch.h"
+#include "engine/lighting/relight.h"
 #include "engine/techniques/light_skin/explain_skin.h"
 #include "engine/techniques/light_skin/skin_overlay.h"
 #include "engine/techniques/light_skin/skin_part.h"
@@ -22,22 +23,16 @@ public:
 
     LightingReport update(const LightingInput& input, const Progress& progress) override {
         Stopwatch whole;
-        SkinInputs now = skinInputsOf(input.scene, input.view);
-        LightingReport report{.converged = true};
-        report.skipped = m_inputs == now;
         SkinCost cost;
         double fieldMs = 0;
-        if (!report.skipped) {
-            m_inputs.reset(); // a cancelled update starts anew
-            const auto trace = [&]() -> const TraceScene& { return *input.trace; };
-            if (m_state.follow(input.scene, now, trace, progress, cost)) {
+        const auto trace = [&]() -> const TraceScene& { return *input.trace; };
+        LightingReport report = relightUnlessSame(
+            skinInputsOf(input.scene, input.view), m_inputs, [&](const SkinInputs& now) {
+                if (!m_state.follow(input.scene, now, trace, progress, cost))
+                    return false;
                 fieldMs = writeField(now);
-                m_inputs = std::move(now);
-                report.bounces = 1;
-            } else {
-                report.converged = report.whole = false;
-            }
-        }
+                return true;
+            });
         describeSkin(m_state.objects(), m_state.bytes(), cost, report);
         report.steps.push_back(
             {"field", "Field", "Flux of the proxy lights in the lights' colours", fieldMs});

@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/core/stopwatch.h"
+#include "engine/lighting/relight.h"
 #include "engine/techniques/lpv/lattice_sources.h"
 #include "engine/techniques/lpv/lpv_overlay.h"
 #include "engine/techniques/lpv/propagation.h"
@@ -21,19 +22,11 @@ public:
 
     LightingReport update(const LightingInput& input, const Progress& progress) override {
         Stopwatch whole;
-        LpvInputs now = lpvInputsOf(input.scene);
-        LightingReport report{.converged = true};
-        report.skipped = m_inputs == now;
         Cost cost;
-        if (!report.skipped) {
-            m_inputs.reset(); // a cancelled update starts anew
-            if (relight(input, now, progress, cost)) {
-                m_inputs = std::move(now);
-                report.bounces = 1;
-            } else {
-                report.converged = report.whole = false;
-            }
-        }
+        LightingReport report =
+            relightUnlessSame(lpvInputsOf(input.scene), m_inputs, [&](const LpvInputs& now) {
+                return relight(input, now, progress, cost);
+            });
         describe(cost, report);
         report.totalMs = whole.lap();
         return report;

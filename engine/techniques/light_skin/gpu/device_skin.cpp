@@ -2,6 +2,7 @@
 #include "engine/techniques/light_skin/gpu/device_skin.h"
 
 #include "engine/core/stopwatch.h"
+#include "engine/lighting/relight.h"
 #include "engine/scene/light/unit_light.h"
 #include "engine/techniques/light_skin/skin_overlay.h"
 #include "engine/techniques/light_skin/skin_report.h"
@@ -20,22 +21,14 @@ Result<std::unique_ptr<DeviceSkin>> DeviceSkin::create(gpu::Device& device, View
 
 LightingReport DeviceSkin::update(const LightingInput& input, const Progress& progress) {
     Stopwatch whole;
-    SkinInputs now = skinInputsOf(input.scene, input.view);
-    LightingReport report{.converged = true};
-    report.skipped = m_inputs == now;
     Cost cost;
-    if (!report.skipped) {
-        m_inputs.reset(); // a cancelled update starts anew
-        const std::uint64_t before = m_lights->dispatches();
-        if (relight(input.scene, now, progress, cost)) {
-            m_inputs = std::move(now);
-            m_scene = input.scene;
-            report.bounces = 1;
-        } else {
-            report.converged = report.whole = false;
-        }
-        cost.dispatches = m_lights->dispatches() - before;
-    }
+    const std::uint64_t before = m_lights->dispatches();
+    LightingReport report = relightUnlessSame(
+        skinInputsOf(input.scene, input.view), m_inputs,
+        [&](const SkinInputs& now) { return relight(input.scene, now, progress, cost); });
+    cost.dispatches = m_lights->dispatches() - before;
+    if (report.bounces > 0)
+        m_scene = input.scene;
     if (m_pass)
         m_viewport.setIndirect(m_pass);
     describe(cost, report);

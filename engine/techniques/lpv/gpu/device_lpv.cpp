@@ -2,6 +2,7 @@
 #include "engine/techniques/lpv/gpu/device_lpv.h"
 
 #include "engine/core/stopwatch.h"
+#include "engine/lighting/relight.h"
 #include "engine/scene/light/unit_light.h"
 #include "engine/techniques/lpv/lpv_overlay.h"
 
@@ -20,20 +21,13 @@ Result<std::unique_ptr<DeviceLpv>> DeviceLpv::create(gpu::Device& device, Viewpo
 
 LightingReport DeviceLpv::update(const LightingInput& input, const Progress& progress) {
     Stopwatch whole;
-    LpvInputs now = lpvInputsOf(input.scene);
-    LightingReport report{.converged = true};
-    report.skipped = m_inputs == now;
     Cost cost;
-    if (!report.skipped) {
-        m_inputs.reset(); // a cancelled update starts anew
-        if (relight(input.scene, now, progress, cost)) {
-            m_inputs = std::move(now);
-            m_scene = input.scene;
-            report.bounces = 1;
-        } else {
-            report.converged = report.whole = false;
-        }
-    }
+    LightingReport report =
+        relightUnlessSame(lpvInputsOf(input.scene), m_inputs, [&](const LpvInputs& now) {
+            return relight(input.scene, now, progress, cost);
+        });
+    if (report.bounces > 0)
+        m_scene = input.scene;
     if (m_gpu->field())
         m_viewport.setIndirect(m_gpu->field());
     describe(cost, report);
