@@ -4,33 +4,50 @@
 #include "engine/render/passes/fullscreen.h"
 #include "engine/render/passes/geometry_passes.h"
 
+#include <array>
+
 namespace limn {
 
 LightPipelines::LightPipelines(gpu::Device& device, VkDescriptorSetLayout frameLayout,
-                               std::span<const VkDescriptorSetLayout> setLayouts,
-                               gpu::Spirv fragment, std::vector<std::uint32_t> constants,
-                               const char* name)
-    : m_device(device), m_fragment(fragment), m_constants(std::move(constants)), m_name(name) {
-    std::vector<VkDescriptorSetLayout> layouts = {frameLayout};
-    layouts.insert(layouts.end(), setLayouts.begin(), setLayouts.end());
-    m_layout = gpu::createPipelineLayout(device, layouts, 0, name);
-}
+                               LightPassShader shader)
+    : m_device(device), m_shader(std::move(shader)),
+      m_setLayout(gpu::createSetLayout(device, m_shader.bindings)),
+      m_layout(gpu::createPipelineLayout(device, std::array{frameLayout, m_setLayout.handle}, 0,
+                                         m_shader.name)) {}
 
-void LightPipelines::draw(const LightPassFrame& frame, std::span<const VkDescriptorSet> sets) {
+void LightPipelines::draw(const LightPassFrame& frame, VkDescriptorSet set) {
     gpu::Pipeline& pipeline = m_pipelines[{frame.view, frame.diffuse}];
     if (!pipeline) {
-        auto desc =
-            render::fullscreenDesc(m_fragment, m_layout.handle, render::kLinearFormat, m_name);
+        auto desc = render::fullscreenDesc(m_shader.fragment, m_layout.handle,
+                                           render::kLinearFormat, m_shader.name);
         desc.blend = gpu::Blend::Add;
         desc.constants = {std::uint32_t(frame.view), std::uint32_t(frame.diffuse)};
-        desc.constants.insert(desc.constants.end(), m_constants.begin(), m_constants.end());
+        desc.constants.insert(desc.constants.end(), m_shader.constants.begin(),
+                              m_shader.constants.end());
         pipeline = gpu::createGraphicsPipeline(m_device, desc);
     }
-    std::vector<VkDescriptorSet> all = {frame.frame};
-    all.insert(all.end(), sets.begin(), sets.end());
+    const std::array sets = {frame.frame, set};
     vkCmdBindDescriptorSets(frame.cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_layout.handle, 0,
-                            std::uint32_t(all.size()), all.data(), 0, nullptr);
+                            std::uint32_t(sets.size()), sets.data(), 0, nullptr);
     render::drawFullscreen(frame.cmd, pipeline.handle);
+}
+
+std::shared_ptr<LightPipelines> LightPipelineCache::of(const LightPassShader& shader) {
+    for (const auto& kept : m_kept)
+        if (kept->shader().fragment.data() == shader.fragment.data() &&
+            kept->shader().constants == shader.constants)
+            return kept;
+    return m_kept.emplace_back(std::make_shared<LightPipelines>(m_device, m_frameLayout, shader));
+}
+
+LightPassSet::LightPassSet(gpu::Device& device, std::shared_ptr<LightPipelines> pipelines)
+    : m_device(device), m_pipelines(std::move(pipelines)),
+      m_pool(gpu::createDescriptorPool(device, 1, m_pipelines->shader().bindings)),
+      m_set(gpu::allocateSet(device, m_pool, m_pipelines->setLayout())) {}
+
+void LightPassSet::bind(std::uint32_t binding, const gpu::Buffer& buffer) {
+    gpu::writeBuffer(m_device, m_set, binding, m_pipelines->shader().bindings[binding],
+                     buffer.handle);
 }
 
 } // namespace limn

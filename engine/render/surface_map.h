@@ -27,7 +27,9 @@ SurfaceMapView surfaceMapOf(const Camera& camera, float aspect, const Bounds& bo
 /// The surfaces that such a view sees, for compute shaders: images in SHADER_READ_ONLY_OPTIMAL. The
 /// handles belong to whoever returned this struct.
 struct SurfaceMap {
-    VkImageView albedo = VK_NULL_HANDLE;  ///< rgb: diffuse; 0 on the back of a one-sided surface
+    /// rgb: diffuse; 0 on the back of a one-sided surface. Of Viewport::readSurfaces(): some image
+    /// that is not to be read.
+    VkImageView albedo = VK_NULL_HANDLE;
     VkImageView surface = VK_NULL_HANDLE; ///< as packSurface() of surface_pack.glsl
     VkImageView depth = VK_NULL_HANDLE;   ///< 0 where there is no surface
     /// As surface.frag writes it.

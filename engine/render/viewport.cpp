@@ -2,6 +2,7 @@
 #include "engine/render/viewport.h"
 
 #include "engine/core/log.h"
+#include "engine/core/stopwatch.h"
 #include "engine/gpu/barrier.h"
 #include "engine/gpu/timestamps.h"
 #include "engine/gpu/vulkan_error.h"
@@ -26,7 +27,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -48,6 +48,11 @@ static_assert(std::uint32_t(View::Direct) == VIEW_DIRECT && std::uint32_t(View::
 // Target sizes are rounded up to this, so that dragging a window's edge allocates rarely.
 constexpr std::uint32_t kSizeStep = 128;
 
+Extent steppedUp(Extent size) {
+    const auto up = [](std::uint32_t n) { return (n + kSizeStep - 1) / kSizeStep * kSizeStep; };
+    return {up(size.width), up(size.height)};
+}
+
 // How much a picture fades beneath an overlay.
 constexpr float kOverlayFade = 0.8f;
 
@@ -60,12 +65,6 @@ enum Timestamp : std::uint32_t {
     kEnd,
     kTimestamps
 };
-
-using Clock = std::chrono::steady_clock;
-
-double msSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 /// Resources of one frame in flight.
 struct FrameSlot {
@@ -90,6 +89,7 @@ struct Viewport::Impl {
     explicit Impl(gpu::Device& d);
 
     void ensureTargets(std::uint32_t width, std::uint32_t height);
+    GeometryView viewOf(const ViewportOptions& options) const;
     std::vector<ShadowSlot> assignShadows(const ShadowCamera* camera);
     void writeFrame(FrameSlot& slot, const ViewportOptions& options,
                     const std::vector<ShadowSlot>& shadows, glm::vec2 point);
@@ -122,6 +122,7 @@ struct Viewport::Impl {
     ShadowMaps shadows;
     IndirectLight noIndirect; ///< a black field
     IndirectLight indirect;
+    LightPipelineCache lightPipelines;
     std::shared_ptr<LightPass> lightPass; ///< null: none
     RenderScene scene;
     PartedLights parted;
@@ -150,7 +151,7 @@ Viewport::Impl::Impl(gpu::Device& d)
       indirectPass(d, sets.layout().handle), nearPass(d, sets.layout().handle),
       sky(d, sets.layout().handle), direct(d, sets.layout().handle), mean(d), tonemap(d),
       overlay(d), shadows(d), noIndirect(uploadIndirectLight(d, {})), indirect(noIndirect),
-      relightTimes(d, 1) {
+      lightPipelines(d, sets.layout().handle), relightTimes(d, 1) {
     for (FrameSlot& slot : slots) {
         slot.frame = gpu::Buffer(d, {.size = sizeof(GpuFrame),
                                      .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
@@ -169,15 +170,20 @@ Viewport::Impl::Impl(gpu::Device& d)
 void Viewport::Impl::ensureTargets(std::uint32_t w, std::uint32_t h) {
     if (targets.linear && w <= targets.linear.width && h <= targets.linear.height)
         return;
-    const auto up = [](std::uint32_t size, std::uint32_t old) {
-        return std::max((size + kSizeStep - 1) / kSizeStep * kSizeStep, old);
-    };
-    const std::uint32_t tw = up(w, targets.linear.width), th = up(h, targets.linear.height);
-    using gpu::ImageDesc;
+    const auto [tw, th] =
+        steppedUp({std::max(w, targets.linear.width), std::max(h, targets.linear.height)});
     targets.linear =
-        gpu::Image(device, ImageDesc::renderTarget(tw, th, kLinearFormat, "linear colour"));
-    targets.color = gpu::Image(device, ImageDesc::renderTarget(tw, th, kColorFormat, "colour"));
+        gpu::Image(device, gpu::ImageDesc::renderTarget(tw, th, kLinearFormat, "linear colour"));
+    targets.color =
+        gpu::Image(device, gpu::ImageDesc::renderTarget(tw, th, kColorFormat, "colour"));
     surfaces.ensure({tw, th});
+}
+
+GeometryView Viewport::Impl::viewOf(const ViewportOptions& options) const {
+    GeometryView view = geometryView(options, scene.bounds, indirect.field->hasGrid());
+    describeField(*indirect.field, view);
+    view.reflectedApart = lightPass && lightPass->reflects();
+    return view;
 }
 
 std::vector<ShadowSlot> Viewport::Impl::assignShadows(const ShadowCamera* camera) {
@@ -345,10 +351,10 @@ Viewport::Viewport(gpu::Device& device) : m_impl(std::make_unique<Impl>(device))
 Viewport::~Viewport() = default;
 
 void Viewport::setScene(const Scene& scene, std::shared_ptr<const LightmapLayout> layout) {
-    const auto start = Clock::now();
+    Stopwatch clock;
     updateRenderScene(m_impl->device, m_impl->scene, scene, std::move(layout));
     setLighting(scene);
-    m_impl->pendingUploadMs += msSince(start);
+    m_impl->pendingUploadMs += clock.lap();
 }
 
 void Viewport::setLighting(const Scene& scene) {
@@ -361,14 +367,14 @@ void Viewport::setLighting(const Scene& scene) {
 }
 
 void Viewport::setIndirect(const IndirectField& field, std::shared_ptr<LightPass> parts) {
-    const auto start = Clock::now();
+    Stopwatch clock;
     for (const auto& part : field.parts)
         if (!parts && !part->reflects())
             logWarning(fmt::format("the light of a {} is missing in pictures of this device",
                                    part->name()));
     m_impl->indirect = uploadIndirectLight(m_impl->device, field, m_impl->indirect);
     m_impl->lightPass = std::move(parts);
-    m_impl->pendingUploadMs += msSince(start);
+    m_impl->pendingUploadMs += clock.lap();
 }
 
 void Viewport::setIndirect(std::shared_ptr<const GpuField> field,
@@ -383,8 +389,8 @@ void Viewport::setIndirect(std::shared_ptr<LightPass> pass) {
     m_impl->lightPass = std::move(pass);
 }
 
-VkDescriptorSetLayout Viewport::frameLayout() const {
-    return m_impl->sets.layout().handle;
+LightPipelineCache& Viewport::lightPipelines() {
+    return m_impl->lightPipelines;
 }
 
 void Viewport::setCoarseShadows(bool coarse) {
@@ -392,9 +398,9 @@ void Viewport::setCoarseShadows(bool coarse) {
 }
 
 void Viewport::setOverlay(std::shared_ptr<const OverlayData> overlay) {
-    const auto start = Clock::now();
+    Stopwatch clock;
     m_impl->overlay.set(std::move(overlay));
-    m_impl->pendingUploadMs += msSince(start);
+    m_impl->pendingUploadMs += clock.lap();
 }
 
 // Draws the next sample of the picture and shows the mean of all samples.
@@ -403,13 +409,11 @@ void Viewport::Impl::draw(const ViewportOptions& options) {
     FrameSlot& slot = slots[slotIndex];
     device.wait(slot.submission); // two frames ago
     readTimes(slot);
-    const auto start = Clock::now();
+    Stopwatch clock;
     ensureTargets(options.width, options.height);
     const glm::vec2 point = samplePoint(samples);
     const bool lit = nearPass.prepare(options) || showsDirectLight(options.view);
-    GeometryView view = geometryView(options, scene.bounds, indirect.field->hasGrid());
-    describeField(*indirect.field, view);
-    view.reflectedApart = lightPass && lightPass->reflects();
+    GeometryView view = viewOf(options);
     std::vector<ShadowSlot> shadowSlots(lights.size());
     if (lit) {
         const ShadowCamera camera = shadowCamera(options, view, scene, nearestSeen);
@@ -421,7 +425,7 @@ void Viewport::Impl::draw(const ViewportOptions& options) {
     sets.write(slotIndex, slot.frame, slot.lights, shadows, surfaces, scene.lookupSnaps);
     indirectPass.bind(*indirect.field, slotIndex);
     materials.writeFactors(slotIndex);
-    slot.uploadMs = pendingUploadMs + msSince(start);
+    slot.uploadMs = pendingUploadMs + clock.lap();
     pendingUploadMs = 0;
 
     const VkCommandBuffer cmd = device.begin("viewport");
@@ -518,6 +522,27 @@ void Viewport::drawSurfaceMaps(std::span<const SurfaceMapView> views, glm::uvec2
     v.materials.writeFactors(slotIndex);
     v.surfaceMaps.draw(v.geometry, v.scene, v.materials, v.sets.filler(), slotIndex, views, size,
                        read);
+}
+
+void Viewport::readSurfaces(const Camera& camera, glm::uvec2 size, const ReadSurfaceMap& read) {
+    Impl& v = *m_impl;
+    const auto slotIndex = std::uint32_t(v.frames % kFrameSlots); // the next frame's
+    FrameSlot& slot = v.slots[slotIndex];
+    v.device.wait(slot.submission);
+    ViewportOptions options = v.last; // the next frame shows the same, except after a switch
+    options.camera = camera;
+    options.width = size.x, options.height = size.y;
+    v.surfaces.ensure(steppedUp({size.x, size.y}));
+    v.writeFrame(slot, options, std::vector<ShadowSlot>(v.lights.size()), glm::vec2(0));
+    v.sets.write(slotIndex, slot.frame, slot.lights, v.shadows, v.surfaces, v.scene.lookupSnaps);
+    v.materials.writeFactors(slotIndex);
+    v.device.immediate("surfaces", [&](VkCommandBuffer cmd) {
+        v.stats.geometryDrawn +=
+            v.surfaces.record(cmd, v.geometry, v.scene, v.materials, v.viewOf(options),
+                              {size.x, size.y}, slotIndex, v.sets.set(slotIndex));
+        gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kAllReads);
+        read(cmd, v.surfaceMaps.mapOf(v.surfaces, v.sets.filler()), 0);
+    });
 }
 
 VkImageView Viewport::colorView() const {

@@ -50,14 +50,12 @@ struct ViewportStats {
     double tonemapMs = 0; ///< includes the overlay
     /// Lights with at least one redrawn shadow map; 0 if no light, object or camera changed.
     std::uint32_t shadowMapsDrawn = 0;
-    /// Number of frames that drew triangles. A frame draws none if camera, objects and materials
-    /// are unchanged and only the light differs.
+    /// Times that triangles were drawn: not if camera, objects and materials are unchanged.
     std::uint64_t geometryDrawn = 0;
     double relightShadowMs = 0;          ///< shadow maps of the last completed shadowedLights()
     std::uint32_t relightShadowMaps = 0; ///< drawn by the last shadowedLights()
-    std::uint32_t lightsOff = 0; ///< lights that are off, black or too far to reach the scene
-    std::uint32_t lightsLeftOut =
-        0; ///< lights left dark because there is no room for their shadow maps
+    std::uint32_t lightsOff = 0;     ///< lights that are off, black or too far to reach the scene
+    std::uint32_t lightsLeftOut = 0; ///< lights left dark: no room for their shadow maps
     std::uint64_t gpuBytes = 0;
 };
 
@@ -88,19 +86,23 @@ public:
     /// Uses indirect light of a technique's own kind; must not be null. It replaces all other.
     void setIndirect(std::shared_ptr<LightPass> pass);
 
-    /// Layout of set 0 of a LightPass.
-    VkDescriptorSetLayout frameLayout() const;
+    /// Pipelines for the passes of setIndirect().
+    LightPipelineCache& lightPipelines();
 
     /// Returns the lights of the last setLighting() with their shadow maps, after redrawing maps
     /// that are out of date. PointIrradiance lights points with them. The result is valid until the
     /// next call of a non-const function; the result of the previous call must no longer be in use.
     ShadowedLights shadowedLights();
 
-    /// Draws the scene of the last setScene() as each of `views` sees it, one after the other into
-    /// the same images of `size` texels, and lets `read` record compute shaders that read
-    /// them, with the number of the view. Waits for the GPU.
+    /// Draws the scene as each of `views` sees it, one after the other into the same images of
+    /// `size` texels, and lets `read` record compute shaders that read them. Waits for the GPU.
     void drawSurfaceMaps(std::span<const SurfaceMapView> views, glm::uvec2 size,
                          const ReadSurfaceMap& read);
+
+    /// Lets `read` record compute shaders that read the surfaces of a picture of `size` pixels. If
+    /// the next render() is of it and has the last one's view, it draws no triangles again. Waits
+    /// for the GPU.
+    void readSurfaces(const Camera& camera, glm::uvec2 size, const ReadSurfaceMap& read);
 
     /// Sets whether shadow maps drawn from now on have half as many texels across, as suits moving
     /// scenes. Turning it off causes coarse maps to be redrawn. Initially false.
@@ -120,8 +122,7 @@ public:
     /// changed since. Surface images are drawn anew each time.
     std::uint32_t refine();
 
-    /// The tone-mapped result of the last render(): a sampled image in SHADER_READ_ONLY_OPTIMAL,
-    /// for ImGui::Image.
+    /// The tone-mapped result of the last render(), in SHADER_READ_ONLY_OPTIMAL.
     VkImageView colorView() const;
     /// The image of colorView(), in the same layout. The picture fills the corner (0, 0, width,
     /// height) of the last ViewportOptions; the rest is unused, so changing the size every frame

@@ -2,7 +2,6 @@
 // A technique's own pass, here a trivial one: light kept on objects.
 #include "tests/render/viewport_fixture.h"
 
-#include "engine/gpu/descriptors.h"
 #include "engine/gpu/uploader.h"
 #include "engine/render/light_pass.h"
 #include "shaders/tests/instance_light.frag.h"
@@ -14,30 +13,22 @@ constexpr std::array kTypes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
 class InstanceLight : public LightPass {
 public:
-    InstanceLight(gpu::Device& device, const Viewport& viewport, std::vector<glm::vec4> light)
-        : m_layout(gpu::createSetLayout(device, kTypes)),
-          m_pool(gpu::createDescriptorPool(device, 1, kTypes)),
-          m_set(gpu::allocateSet(device, m_pool, m_layout)),
-          m_pipelines(device, viewport.frameLayout(), std::array{m_layout.handle},
-                      kInstanceLightFrag, {3}, "light of instances") {
+    InstanceLight(gpu::Device& device, Viewport& viewport, std::vector<glm::vec4> light)
+        : m_set(device, viewport.lightPipelines().of(
+                            {kInstanceLightFrag, kTypes, {3}, "light of instances"})) {
         gpu::Uploader uploader(device);
         m_light = uploader.buffer(std::as_bytes(std::span(light)),
                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "light of instances");
         uploader.flush();
-        gpu::writeBuffer(device, m_set, 0, kTypes[0], m_light.handle);
+        m_set.bind(0, m_light);
     }
 
-    void record(const LightPassFrame& frame) override {
-        m_pipelines.draw(frame, std::array{m_set});
-    }
+    void record(const LightPassFrame& frame) override { m_set.draw(frame); }
     std::uint64_t bytes() const override { return m_light.size; }
 
 private:
-    gpu::DescriptorSetLayout m_layout;
-    gpu::DescriptorPool m_pool;
-    VkDescriptorSet m_set;
     gpu::Buffer m_light;
-    LightPipelines m_pipelines;
+    LightPassSet m_set;
 };
 
 constexpr glm::vec3 kPlaneLight{1, 2, 3}, kPaneLight{5, 7, 0.5f};
@@ -114,6 +105,16 @@ TEST_F(LightPassTest, AddsToTheRestOfItsField) {
     viewport->setIndirect(pass());
     EXPECT_EQ(pixel(draw(scene, View::Irradiance), 4, 9), kPlaneLight * 3.f);
     EXPECT_GT(pass()->bytes(), 0U);
+}
+
+TEST_F(LightPassTest, SharesPipelinesOfEqualShaders) {
+    const auto of = [&](std::uint32_t constant) {
+        return viewport->lightPipelines().of({kInstanceLightFrag, kTypes, {constant}, "light"});
+    };
+    const auto three = of(3);
+    EXPECT_EQ(of(3), three);
+    EXPECT_NE(of(4), three);
+    EXPECT_EQ(of(3), three);
 }
 
 } // namespace

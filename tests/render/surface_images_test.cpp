@@ -108,6 +108,36 @@ TEST_F(KeptSurfaces, LightThatChangesDrawsNoTriangle) {
         "exposure", [&] { options.exposureEv = 1; }, false));
 }
 
+TEST_F(KeptSurfaces, AreDrawnOnceForWhatReadsThemAndForThePicture) {
+    const ImageF wanted = drawWith(*viewport);
+    Viewport fresh(*device);
+    fresh.setScene(scene, layout);
+    fresh.setIndirect(field);
+    glm::uvec2 size{options.width, options.height};
+    int reads = 0;
+    const auto read = [&](VkCommandBuffer, const SurfaceMap& map, std::size_t) {
+        EXPECT_GE(map.bytes, std::uint64_t(size.x) * size.y);
+        ++reads;
+    };
+    fresh.readSurfaces(options.camera, size, read);
+    EXPECT_EQ(fresh.stats().geometryDrawn, 1U);
+    fresh.render(options);
+    EXPECT_TRUE(same(fresh.readLinear(), wanted));
+    fresh.readSurfaces(options.camera, size, read);
+    EXPECT_EQ(fresh.stats().geometryDrawn, 1U);
+    EXPECT_TRUE(same(fresh.readLinear(), wanted)) << "the picture before stays";
+    Camera other = options.camera;
+    other.eye.x += 1;
+    size *= 9;
+    fresh.readSurfaces(other, size, read);
+    EXPECT_EQ(fresh.stats().geometryDrawn, 2U);
+    EXPECT_TRUE(same(fresh.readLinear(), wanted));
+    fresh.render(options);
+    EXPECT_EQ(fresh.stats().geometryDrawn, 3U) << "of another view";
+    EXPECT_TRUE(same(fresh.readLinear(), wanted));
+    EXPECT_EQ(reads, 3);
+}
+
 TEST_F(KeptSurfaces, WhateverElseIsSeenDrawsThemAnew) {
     const glm::mat4 over = glm::translate(glm::mat4(1), glm::vec3(0, 2, 0)) *
                            glm::rotate(glm::mat4(1), kPi, glm::vec3(0, 0, 1));

@@ -46,6 +46,16 @@ void SurfaceMaps::writeSet(VkImageView filler) {
             gpu::writeBuffer(m_device, m_set, binding, m_frameTypes[binding], m_frame.handle);
 }
 
+SurfaceMap SurfaceMaps::mapOf(const SurfaceImages& images, VkImageView albedo) const {
+    constexpr std::uint64_t kTexelBytes = 3 * 16 + 4;
+    return {.albedo = albedo,
+            .surface = images.surface.view,
+            .depth = images.depth.view,
+            .receiver = images.receiver.view,
+            .sampler = m_sampler.handle,
+            .bytes = kTexelBytes * images.depth.width * images.depth.height};
+}
+
 void SurfaceMaps::draw(GeometryPasses& geometry, const RenderScene& scene,
                        const MaterialSet& materials, VkImageView filler, std::uint32_t slot,
                        std::span<const SurfaceMapView> views, glm::uvec2 size,
@@ -53,13 +63,7 @@ void SurfaceMaps::draw(GeometryPasses& geometry, const RenderScene& scene,
     assert(size.x > 0 && size.y > 0);
     m_images.ensure({size.x, size.y});
     writeSet(filler);
-    constexpr std::uint64_t kTexelBytes = 3 * 16 + 4;
-    const SurfaceMap map{.albedo = m_images.emitted.view,
-                         .surface = m_images.surface.view,
-                         .depth = m_images.depth.view,
-                         .receiver = m_images.receiver.view,
-                         .sampler = m_sampler.handle,
-                         .bytes = kTexelBytes * m_images.depth.width * m_images.depth.height};
+    const SurfaceMap map = mapOf(m_images, m_images.emitted.view);
     m_device.immediate("surface maps", [&](VkCommandBuffer cmd) {
         for (std::size_t k = 0; k < views.size(); ++k) {
             GeometryView view;

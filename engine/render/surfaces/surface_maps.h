@@ -24,6 +24,9 @@ public:
               VkImageView filler, std::uint32_t slot, std::span<const SurfaceMapView> views,
               glm::uvec2 size, const ReadSurfaceMap& read);
 
+    /// `images` as shaders read them.
+    SurfaceMap mapOf(const SurfaceImages& images, VkImageView albedo) const;
+
 private:
     void writeSet(VkImageView filler);
 

@@ -153,15 +153,15 @@ void GpuSkinLights::findSamples(const Viewpoint& view, const Bounds& bounds, std
     if (size.x == 0 || size.y == 0)
         size = {std::max(std::uint32_t(std::lround(kRowsWithoutSize * view.aspect)), 1U),
                 std::uint32_t(kRowsWithoutSize)};
-    const SurfaceMapView map = surfaceMapOf(view.camera, view.aspect, bounds);
+    const SurfaceMapView map = surfaceMapOf(view.camera, float(size.x) / float(size.y), bounds);
     ensure(m_device, m_samples, count, sizeof(shared::GpuViewSample), "view samples");
     m_sampleCount = count;
     const shared::GpuSkinView constants{.fromClip = glm::mat4(glm::inverse(glm::dmat4(map.toClip))),
                                         .size = size,
                                         .samples = count,
                                         .eye = view.camera.eye};
-    m_viewport.drawSurfaceMaps(
-        {&map, 1}, size, [&](VkCommandBuffer cmd, const SurfaceMap& images, std::size_t) {
+    m_viewport.readSurfaces(
+        view.camera, size, [&](VkCommandBuffer cmd, const SurfaceMap& images, std::size_t) {
             writeRsmImages(m_device, m_set, images);
             bindBuffers(nullptr);
             m_dispatches += gpu::dispatch(m_device, cmd, m_findSamples.handle, m_layout.handle,

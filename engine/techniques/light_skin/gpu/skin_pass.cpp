@@ -117,28 +117,23 @@ gpu::Buffer uploadProxies(gpu::Device& device, const SkinPart::Light& light) {
     return uploaded(uploader, std::move(proxies), "proxy lights");
 }
 
-SkinPass::SkinPass(gpu::Device& device, const Viewport& viewport,
-                   std::shared_ptr<const GpuSkin> skin, std::shared_ptr<const gpu::Buffer> proxies,
-                   bool glossy)
+SkinPass::SkinPass(gpu::Device& device, Viewport& viewport, std::shared_ptr<const GpuSkin> skin,
+                   std::shared_ptr<const gpu::Buffer> proxies, bool glossy)
     : m_skin(std::move(skin)), m_proxies(std::move(proxies)),
-      m_setLayout(gpu::createSetLayout(device, kSkinTypes)),
-      m_pool(gpu::createDescriptorPool(device, 1, kSkinTypes)),
-      m_set(gpu::allocateSet(device, m_pool, m_setLayout)),
-      m_pipelines(device, viewport.frameLayout(), std::array{m_setLayout.handle}, kSkinLightFrag,
-                  {glossy ? 1U : 0U, std::bit_cast<std::uint32_t>(kNearestProxy)},
-                  "light on objects") {
-    const auto bind = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
-        gpu::writeBuffer(device, m_set, binding, kSkinBuffer, buffer.handle);
-    };
-    bind(SKIN_CACHES, m_skin->caches);
-    bind(SKIN_LISTS, m_skin->lists);
-    bind(SKIN_CUBES, m_skin->cubes);
-    bind(SKIN_PROXIES, *m_proxies);
-    bind(SKIN_INSTANCES, m_skin->instances);
+      m_set(device, viewport.lightPipelines().of(
+                        {kSkinLightFrag,
+                         kSkinTypes,
+                         {glossy ? 1U : 0U, std::bit_cast<std::uint32_t>(kNearestProxy)},
+                         "light on objects"})) {
+    m_set.bind(SKIN_CACHES, m_skin->caches);
+    m_set.bind(SKIN_LISTS, m_skin->lists);
+    m_set.bind(SKIN_CUBES, m_skin->cubes);
+    m_set.bind(SKIN_PROXIES, *m_proxies);
+    m_set.bind(SKIN_INSTANCES, m_skin->instances);
 }
 
 void SkinPass::record(const LightPassFrame& frame) {
-    m_pipelines.draw(frame, std::array{m_set});
+    m_set.draw(frame);
 }
 
 std::shared_ptr<LightPass> uploadSkinPart(gpu::Device& device, Viewport& viewport,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/gpu/buffer.h"
-#include "engine/gpu/descriptors.h"
 #include "engine/render/light_pass.h"
 #include "engine/render/viewport.h"
 #include "engine/techniques/light_skin/skin_part.h"
@@ -26,7 +25,7 @@ public:
     /// `proxies`: an array of shared::GpuSkinProxies, one of each cache. Neither pointer is null.
     /// `glossy`: they hold glossy light for the eye of the pictures. Device and viewport outlive
     /// the object.
-    SkinPass(gpu::Device& device, const Viewport& viewport, std::shared_ptr<const GpuSkin> skin,
+    SkinPass(gpu::Device& device, Viewport& viewport, std::shared_ptr<const GpuSkin> skin,
              std::shared_ptr<const gpu::Buffer> proxies, bool glossy);
 
     void record(const LightPassFrame& frame) override;
@@ -35,10 +34,7 @@ public:
 private:
     std::shared_ptr<const GpuSkin> m_skin;
     std::shared_ptr<const gpu::Buffer> m_proxies;
-    gpu::DescriptorSetLayout m_setLayout;
-    gpu::DescriptorPool m_pool;
-    VkDescriptorSet m_set;
-    LightPipelines m_pipelines;
+    LightPassSet m_set;
 };
 
 /// The proxies of a part.

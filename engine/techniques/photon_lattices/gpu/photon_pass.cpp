@@ -2,7 +2,6 @@
 #include "engine/techniques/photon_lattices/gpu/photon_pass.h"
 
 #include "engine/core/log.h"
-#include "engine/gpu/descriptors.h"
 #include "engine/gpu/storage_maker.h"
 #include "engine/techniques/photon_lattices/lattice_part.h"
 #include "engine/techniques/photon_lattices/splat_part.h"
@@ -99,12 +98,9 @@ PhotonData dataOf(const IndirectField& field) {
 
 class PhotonPass : public LightPass {
 public:
-    PhotonPass(gpu::Device& device, const Viewport& viewport, const PhotonData& data)
-        : m_setLayout(gpu::createSetLayout(device, kPassTypes)),
-          m_pool(gpu::createDescriptorPool(device, 1, kPassTypes)),
-          m_set(gpu::allocateSet(device, m_pool, m_setLayout)),
-          m_pipelines(device, viewport.frameLayout(), std::array{m_setLayout.handle},
-                      kPhotonLightFrag, {}, "light of photons") {
+    PhotonPass(gpu::Device& device, Viewport& viewport, const PhotonData& data)
+        : m_set(device, viewport.lightPipelines().of(
+                            {kPhotonLightFrag, kPassTypes, {}, "light of photons"})) {
         gpu::StorageMaker maker(device, "Fewer cells or photons need less");
         {
             gpu::Uploader uploader(device);
@@ -114,11 +110,10 @@ public:
         m_buffers = {maker.filled(data.entries, "photon cells' entries"),
                      maker.filled(data.cells, "photon cells"), maker.filled(data.splats, "splats"),
                      maker.filled(data.buckets, "splats' buckets")};
-        gpu::writeBuffer(device, m_set, PHOTON_LATTICES, kPassTypes[0], m_photons.handle);
+        m_set.bind(PHOTON_LATTICES, m_photons);
         for (std::uint32_t k = 0; k < m_buffers.size(); ++k)
             if (m_buffers[k])
-                gpu::writeBuffer(device, m_set, PHOTON_ENTRIES + k, kPassBuffer,
-                                 m_buffers[k].handle);
+                m_set.bind(PHOTON_ENTRIES + k, m_buffers[k]);
             else
                 m_draws = false;
         if (!m_draws)
@@ -127,7 +122,7 @@ public:
 
     void record(const LightPassFrame& frame) override {
         if (m_draws)
-            m_pipelines.draw(frame, std::array{m_set});
+            m_set.draw(frame);
     }
     std::uint64_t bytes() const override {
         std::uint64_t bytes = m_photons.size;
@@ -137,13 +132,10 @@ public:
     }
 
 private:
-    gpu::DescriptorSetLayout m_setLayout;
-    gpu::DescriptorPool m_pool;
-    VkDescriptorSet m_set;
     gpu::Buffer m_photons;
     std::array<gpu::Buffer, PHOTON_BINDINGS - 1> m_buffers;
+    LightPassSet m_set;
     bool m_draws = true; ///< false: the device cannot bind that much
-    LightPipelines m_pipelines;
 };
 
 } // namespace

@@ -19,24 +19,20 @@ static constexpr std::array kMarchedTypes = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                              VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                              VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 
-MarchedPass::MarchedPass(gpu::Device& device, const Viewport& viewport,
+MarchedPass::MarchedPass(gpu::Device& device, Viewport& viewport,
                          std::shared_ptr<const GpuMarchedMaps> maps)
-    : m_maps(std::move(maps)), m_setLayout(gpu::createSetLayout(device, kMarchedTypes)),
-      m_pool(gpu::createDescriptorPool(device, 1, kMarchedTypes)),
-      m_set(gpu::allocateSet(device, m_pool, m_setLayout)),
-      m_pipelines(device, viewport.frameLayout(), std::array{m_setLayout.handle},
-                  kProbeReflectionsFrag, {m_maps->side}, "marched reflections") {
-    const auto bind = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
-        gpu::writeBuffer(device, m_set, binding, kMarchedTypes[binding], buffer.handle);
-    };
-    bind(MARCHED_PLANES, m_maps->planes);
-    bind(MARCHED_NEAREST, m_maps->nearest);
-    bind(MARCHED_RADIANCE, m_maps->radiance);
+    : m_maps(std::move(maps)),
+      m_set(device,
+            viewport.lightPipelines().of(
+                {kProbeReflectionsFrag, kMarchedTypes, {m_maps->side}, "marched reflections"})) {
+    m_set.bind(MARCHED_PLANES, m_maps->planes);
+    m_set.bind(MARCHED_NEAREST, m_maps->nearest);
+    m_set.bind(MARCHED_RADIANCE, m_maps->radiance);
 }
 
 void MarchedPass::record(const LightPassFrame& frame) {
     if (frame.view == View::Lit) // the other views show diffuse light
-        m_pipelines.draw(frame, std::array{m_set});
+        m_set.draw(frame);
 }
 
 std::shared_ptr<LightPass> uploadMarchedPart(gpu::Device& device, Viewport& viewport,

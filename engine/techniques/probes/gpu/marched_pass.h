@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/field/indirect_field.h"
-#include "engine/gpu/descriptors.h"
 #include "engine/render/light_pass.h"
 #include "engine/render/viewport.h"
 #include "engine/techniques/probes/gpu/gpu_marched_maps.h"
@@ -16,7 +15,7 @@ namespace limn {
 class MarchedPass : public LightPass {
 public:
     /// `maps` may change later; must not be null. Device and viewport outlive the object.
-    MarchedPass(gpu::Device& device, const Viewport& viewport,
+    MarchedPass(gpu::Device& device, Viewport& viewport,
                 std::shared_ptr<const GpuMarchedMaps> maps);
 
     void record(const LightPassFrame& frame) override;
@@ -25,10 +24,7 @@ public:
 
 private:
     std::shared_ptr<const GpuMarchedMaps> m_maps;
-    gpu::DescriptorSetLayout m_setLayout;
-    gpu::DescriptorPool m_pool;
-    VkDescriptorSet m_set;
-    LightPipelines m_pipelines;
+    LightPassSet m_set;
 };
 
 /// The pass for a field with a MarchedPart, which it uploads. Null, after a warning, if the device

@@ -131,12 +131,7 @@ bool DeviceVolumes::relight(const Scene& scene, const VolumeInputs& now, const P
     volume->harmonics = std::move(light.harmonics);
     volume->glossy = std::move(light.glossy);
     volume->address = m_address;
-    // The pass keeps its pipelines: all frames that read the light before have ended by now, since
-    // light() waited for the device.
-    if (m_pass && m_volume && m_volume->bands == volume->bands)
-        m_pass->show(volume);
-    else
-        m_pass = std::make_shared<VolumePass>(m_device, m_viewport, volume);
+    m_pass = std::make_shared<VolumePass>(m_device, m_viewport, volume);
     m_volume = std::move(volume);
     cost.lightMs = clock.lap();
     return true;

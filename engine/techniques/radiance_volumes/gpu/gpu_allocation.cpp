@@ -70,17 +70,16 @@ GpuAllocation::GpuAllocation(gpu::Device& device, Viewport& viewport)
 
 /// A view that is drawn for a step to read.
 struct GpuAllocation::Picture {
+    Camera camera;
     glm::uvec2 size;
-    SurfaceMapView drawn;
     GpuVolumeDemand constants;
 };
 
 /// Draws the view, and runs a step for each pixel. `nodes`: what it binds for them.
 void GpuAllocation::draw(const Picture& picture, const gpu::Pipeline& step,
                          const gpu::Buffer& nodes) {
-    m_viewport.drawSurfaceMaps(
-        std::span(&picture.drawn, 1), picture.size,
-        [&](VkCommandBuffer cmd, const SurfaceMap& map, std::size_t) {
+    m_viewport.readSurfaces(
+        picture.camera, picture.size, [&](VkCommandBuffer cmd, const SurfaceMap& map, std::size_t) {
             gpu::writeTexture(m_device, m_set, VOLUME_DEMAND_SURFACE, map.surface, map.sampler);
             gpu::writeTexture(m_device, m_set, VOLUME_DEMAND_DEPTH, map.depth, map.sampler);
             const auto bind = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
@@ -90,7 +89,6 @@ void GpuAllocation::draw(const Picture& picture, const gpu::Pipeline& step,
             bind(VOLUME_DEMAND_GRIDS, m_grids);
             bind(VOLUME_DEMAND_SUMS, nodes);
             bind(VOLUME_DEMAND_MISSED, m_missed);
-            m_mapBytes = map.bytes;
             vkCmdBindPipeline(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, step.handle);
             vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_COMPUTE, m_layout.handle, 0, 1,
                                     &m_set, 0, nullptr);
@@ -136,10 +134,10 @@ std::optional<CacheAllocation> GpuAllocation::allocate(const Scene& scene, const
                    .name = "caches wanted"}};
     const shared::GpuCacheGrids onDevice = gpuCacheGrids(grids, {}, glm::vec3(0));
     std::memcpy(m_grids.mapped, &onDevice, sizeof onDevice);
-    Picture picture{.size = pictureSize(view), .drawn = {}, .constants = {}};
-    picture.drawn =
-        surfaceMapOf(view.camera, float(picture.size.x) / float(picture.size.y), scene.bounds);
-    picture.constants = pictureOf(view, picture.size, picture.drawn);
+    const glm::uvec2 size = pictureSize(view);
+    const SurfaceMapView drawn =
+        surfaceMapOf(view.camera, float(size.x) / float(size.y), scene.bounds);
+    const Picture picture{view.camera, size, pictureOf(view, size, drawn)};
     m_device.immediate("clear caches wanted", [&](VkCommandBuffer cmd) {
         vkCmdFillBuffer(cmd, m_sums.handle, 0, VK_WHOLE_SIZE, 0);
         gpu::memoryBarrier(cmd, gpu::kTransferWrite, gpu::kComputeWrite);

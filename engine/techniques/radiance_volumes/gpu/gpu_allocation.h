@@ -26,7 +26,7 @@ public:
                                             const VolumeSettings& settings);
 
     std::uint64_t dispatches() const { return m_dispatches; }
-    std::uint64_t bytes() const { return m_sums.size + m_mapBytes; } ///< of sums and images
+    std::uint64_t bytes() const { return m_sums.size; } ///< of the nodes' sums
 
 private:
     struct Picture;
@@ -43,7 +43,7 @@ private:
     VkDescriptorSet m_set = VK_NULL_HANDLE;
     gpu::PipelineLayout m_layout;
     gpu::Pipeline m_demand, m_count;
-    std::uint64_t m_dispatches = 0, m_mapBytes = 0;
+    std::uint64_t m_dispatches = 0;
 };
 
 } // namespace limn

@@ -39,24 +39,15 @@ shared::GpuCacheGrids gpuCacheGrids(const CacheGrids& grids,
     return out;
 }
 
-VolumePass::VolumePass(gpu::Device& device, const Viewport& viewport,
+VolumePass::VolumePass(gpu::Device& device, Viewport& viewport,
                        std::shared_ptr<const GpuVolume> volume)
-    : m_device(device), m_setLayout(gpu::createSetLayout(device, kPassTypes)),
-      m_pool(gpu::createDescriptorPool(device, 1, kPassTypes)),
-      m_set(gpu::allocateSet(device, m_pool, m_setLayout)),
-      m_pipelines(device, viewport.frameLayout(), std::array{m_setLayout.handle}, kVolumeLightFrag,
-                  {volume->bands}, "radiance volumes") {
-    show(std::move(volume));
-}
-
-void VolumePass::show(std::shared_ptr<const GpuVolume> volume) {
-    m_volume = std::move(volume);
-    m_grids = gpu::Uploader(m_device).buffer(std::as_bytes(std::span(&m_volume->grids, 1)),
-                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grids of caches");
+    : m_volume(std::move(volume)),
+      m_grids(gpu::Uploader(device).buffer(std::as_bytes(std::span(&m_volume->grids, 1)),
+                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "grids of caches")),
+      m_set(device, viewport.lightPipelines().of(
+                        {kVolumeLightFrag, kPassTypes, {m_volume->bands}, "radiance volumes"})) {
     const auto bind = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
-        // What is empty is not read.
-        gpu::writeBuffer(m_device, m_set, binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                         buffer ? buffer.handle : m_grids.handle);
+        m_set.bind(binding, buffer ? buffer : m_grids); // what is empty is not read
     };
     bind(VOLUME_GRIDS, m_grids);
     bind(VOLUME_ADDRESS, m_volume->address ? *m_volume->address : m_grids);
@@ -66,7 +57,7 @@ void VolumePass::show(std::shared_ptr<const GpuVolume> volume) {
 
 void VolumePass::record(const LightPassFrame& frame) {
     if (m_volume->harmonics)
-        m_pipelines.draw(frame, std::array{m_set});
+        m_set.draw(frame);
 }
 
 std::shared_ptr<LightPass> uploadVolumePart(gpu::Device& device, Viewport& viewport,

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/gpu/buffer.h"
-#include "engine/gpu/descriptors.h"
 #include "engine/render/light_pass.h"
 #include "engine/render/viewport.h"
 #include "engine/techniques/radiance_volumes/cache_grids.h"
@@ -36,23 +35,15 @@ shared::GpuCacheGrids gpuCacheGrids(const CacheGrids& grids,
 class VolumePass : public LightPass {
 public:
     /// `volume` must not be null. Device and viewport outlive the object.
-    VolumePass(gpu::Device& device, const Viewport& viewport,
-               std::shared_ptr<const GpuVolume> volume);
-
-    /// Shows another volume of as many bands. No frame in flight may show the one before.
-    void show(std::shared_ptr<const GpuVolume> volume);
+    VolumePass(gpu::Device& device, Viewport& viewport, std::shared_ptr<const GpuVolume> volume);
 
     void record(const LightPassFrame& frame) override;
     std::uint64_t bytes() const override { return m_volume->bytes() + m_grids.size; }
 
 private:
-    gpu::Device& m_device;
     std::shared_ptr<const GpuVolume> m_volume;
     gpu::Buffer m_grids;
-    gpu::DescriptorSetLayout m_setLayout;
-    gpu::DescriptorPool m_pool;
-    VkDescriptorSet m_set;
-    LightPipelines m_pipelines;
+    LightPassSet m_set;
 };
 
 /// The pass for a field with a VolumePart, which it uploads. Null where nothing is lit.

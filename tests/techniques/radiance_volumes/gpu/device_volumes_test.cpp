@@ -270,6 +270,18 @@ TEST_F(DeviceVolumesTest, DoesOnlyWhatChangedAndRepeatsItsBits) {
         EXPECT_EQ(c, glm::vec3(0));
 }
 
+TEST_F(DeviceVolumesTest, ReadsTheSurfacesOfThePictureThatFollows) {
+    const Viewpoint v = view();
+    light(room(LightKind::Point));
+    options = {.view = View::Lit, .camera = v.camera, .width = v.size.x, .height = v.size.y};
+    for (const std::uint64_t drawn : {1U, 2U}) {
+        update(&v);
+        viewport->render(options);
+        EXPECT_EQ(viewport->stats().geometryDrawn, drawn);
+        scene.instances[0].toWorld[3].x += 0.1f;
+    }
+}
+
 TEST_F(DeviceVolumesTest, KeepsItsLightWhenCancelledAndCatchesUp) {
     light(room(LightKind::Spot));
     update();
