@@ -72,6 +72,49 @@ struct Bounces {
     double largestPower = 0, largestTurn = 0; ///< difference where the event is the same
 };
 
+/// Photons of the scene's light that bounce on the device beside those of the CPU.
+Bounces bouncesOf(gpu::Device& device, Viewport& viewport, const Scene& scene) {
+    const Light shape = unitLight(scene.lights[0]);
+    const std::uint32_t side = photonMapSide(shape, scene.bounds, 6000);
+    GpuBounces gpu(device, viewport);
+    const auto bounces = gpu.bounce(scene, shape, side);
+    Bounces found;
+    EXPECT_TRUE(bounces);
+    if (!bounces)
+        return found;
+    const TraceScene trace(scene);
+    const PhotonScene photons{trace, scene, {.photons = 6000, .bounces = 1, .specular = 8}};
+    const std::vector<PathStart> starts = lightStarts(photons, shape, {});
+    float brightest = 0;
+    for (const PathStart& start : starts)
+        brightest = std::max(brightest, start.flight.power.x);
+    for (const PathStart& start : starts) {
+        const shared::GpuBounce& bounce = bounces->at(start.sample);
+        ++found.all;
+        const auto scattered = scatter(*start.surface, start.flight.direction, start.flight.power,
+                                       {0, start.sample}, kStartPairs);
+        const std::uint32_t event = scattered ? std::uint32_t(scattered->event) : 0;
+        const bool narrow = scattered && scattered->narrow;
+        if (!(bounce.incident > 0) || (bounce.event & PHOTON_EVENTS) != event ||
+            ((bounce.event & PHOTON_NARROW) != 0) != narrow || bounce.instance != start.instance)
+            continue;
+        ++found.same;
+        ++found.events[event];
+        EXPECT_NEAR(bounce.incident, start.flight.power.x, 1e-5f * brightest);
+        EXPECT_LT(glm::distance(bounce.position, start.surface->position), 2e-4f);
+        if (!scattered)
+            continue;
+        found.largestPower = std::max(
+            found.largestPower, double(glm::distance(bounce.power, scattered->power) / brightest));
+        found.largestTurn = std::max(found.largestTurn,
+                                     double(glm::distance(bounce.direction, scattered->direction)));
+    }
+    std::printf("%zu of %zu photons alike, power to %.1e, direction to %.1e\n", found.same,
+                found.all, found.largestPower, found.largestTurn);
+    EXPECT_GT(found.all, 2000U);
+    return found;
+}
+
 // Shadow maps that a device draws hold the texels of rays but for edges. With the same random
 // numbers, nearly all photons bounce as on the CPU.
 TEST_F(DevicePhotonsTest, BouncesPhotonsAsTheCpuDoes) {
@@ -79,43 +122,7 @@ TEST_F(DevicePhotonsTest, BouncesPhotonsAsTheCpuDoes) {
          {LightKind::Directional, LightKind::Point, LightKind::Spot, LightKind::Rectangle}) {
         light(room(kind));
         viewport->setScene(scene, layout);
-        const Light shape = unitLight(scene.lights[0]);
-        const std::uint32_t side = photonMapSide(shape, scene.bounds, 6000);
-        GpuBounces gpu(*device, *viewport);
-        const auto bounces = gpu.bounce(scene, shape, side);
-        ASSERT_TRUE(bounces);
-        const TraceScene trace(scene);
-        const PhotonScene photons{trace, scene, {.photons = 6000, .bounces = 1, .specular = 8}};
-        Bounces found;
-        const std::vector<PathStart> starts = lightStarts(photons, shape, {});
-        float brightest = 0;
-        for (const PathStart& start : starts)
-            brightest = std::max(brightest, start.flight.power.x);
-        for (const PathStart& start : starts) {
-            const shared::GpuBounce& bounce = bounces->at(start.sample);
-            ++found.all;
-            const auto scattered = scatter(*start.surface, start.flight.direction,
-                                           start.flight.power, {0, start.sample}, kStartPairs);
-            const std::uint32_t event = scattered ? std::uint32_t(scattered->event) : 0;
-            if (!(bounce.incident > 0) || (bounce.event & PHOTON_EVENTS) != event ||
-                bounce.instance != start.instance)
-                continue;
-            ++found.same;
-            ++found.events[event];
-            EXPECT_NEAR(bounce.incident, start.flight.power.x, 1e-5f * brightest);
-            EXPECT_LT(glm::distance(bounce.position, start.surface->position), 2e-4f);
-            if (!scattered)
-                continue;
-            EXPECT_EQ((bounce.event & PHOTON_NARROW) != 0, scattered->narrow);
-            found.largestPower =
-                std::max(found.largestPower,
-                         double(glm::distance(bounce.power, scattered->power) / brightest));
-            found.largestTurn = std::max(
-                found.largestTurn, double(glm::distance(bounce.direction, scattered->direction)));
-        }
-        std::printf("kind %d: %zu of %zu photons alike, power to %.1e, direction to %.1e\n",
-                    int(kind), found.same, found.all, found.largestPower, found.largestTurn);
-        EXPECT_GT(found.all, 2000U);
+        const Bounces found = bouncesOf(*device, *viewport, scene);
         for (const std::size_t count : found.events)
             EXPECT_GT(count, 20U);
         EXPECT_GT(double(found.same), 0.998 * double(found.all));
@@ -123,6 +130,40 @@ TEST_F(DevicePhotonsTest, BouncesPhotonsAsTheCpuDoes) {
         EXPECT_LT(found.largestPower, 1e-4);
         EXPECT_LT(found.largestTurn, 1e-3);
     }
+}
+
+// Texels of the texture are large beside those of the map, so that the device samples no mipmap.
+TEST_F(DevicePhotonsTest, BouncesPhotonsOfTexturedSurfacesAsTheCpuDoes) {
+    constexpr std::uint32_t kSize = 4;
+    Scene textured = room(LightKind::Point);
+    Assets assets = *textured.assets;
+    Image colours{.name = "colours", .width = kSize, .height = kSize, .rgba = {}};
+    Image metal{.name = "metal", .width = kSize, .height = kSize, .rgba = {}};
+    for (std::uint32_t i = 0; i < kSize * kSize; ++i) {
+        const auto step = [&](std::uint32_t k) { return std::uint8_t(60 + 190 * (i * k % 7) / 6); };
+        colours.rgba.insert(colours.rgba.end(), {step(1), step(2), step(3), 255});
+        // Green is roughness, blue is metallic.
+        metal.rgba.insert(metal.rgba.end(), {0, step(5), std::uint8_t(i % 2 ? 230 : 20), 255});
+    }
+    assets.images = {colours, metal};
+    assets.meshes.push_back(simple::quad({0.1f, 0.05f, 0.1f}, {0, 0, 4.8f}, {3.8f, 0, 0}));
+    Material floor = simple::lambert({0.9f, 0.9f, 0.9f});
+    floor.metallic = 1;
+    floor.baseColorTexture.image = 0;
+    floor.metallicRoughnessTexture.image = 1;
+    textured.instances.push_back(textured.instances[0]);
+    textured.instances.back().mesh = std::uint32_t(assets.meshes.size() - 1);
+    textured.instances.back().material = std::uint32_t(textured.materials.size());
+    textured.instances.back().toWorld = glm::mat4(1);
+    textured.materials.push_back(floor);
+    textured.assets = std::make_shared<const Assets>(std::move(assets));
+    light(textured);
+    viewport->setScene(scene, layout);
+    const Bounces found = bouncesOf(*device, *viewport, scene);
+    EXPECT_GT(double(found.same), 0.99 * double(found.all));
+    // Devices weight texels in steps of 1/256, which a rough metal's directions show most.
+    EXPECT_LT(found.largestPower, 0.01);
+    EXPECT_LT(found.largestTurn, 0.05);
 }
 
 TEST_F(DevicePhotonsTest, LightsAsTheCpuDoes) {
