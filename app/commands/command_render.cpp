@@ -327,7 +327,7 @@ Result<void> renderFrames(const RenderCommand& options, const Document& document
             return tl::make_unexpected(image.error());
         if (image->relight.diverges)
             logWarning("bounced light grew with every bounce and was stopped: bake again");
-        if (image->relight.lacks && request.view == View::Lit)
+        if (image->relight.lacks && showsBouncedLight(request.view))
             logWarning(image->relight.lacks);
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         const std::string path = framePath(options, frame);

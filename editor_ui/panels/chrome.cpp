@@ -242,6 +242,10 @@ static void idleWords(EditorState& state) {
                             r.bounces == 1 ? "" : "s");
     else if (r.running)
         ImGui::Text("Light bouncing: %u", r.bounces);
+    if (r.last.lacks) {
+        ImGui::SameLine(0, 24);
+        elidedText(std::string("Incomplete: ") + r.last.lacks, ImGui::GetContentRegionAvail().x);
+    }
 }
 
 void statusBar(EditorState& state) {

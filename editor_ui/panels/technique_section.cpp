@@ -32,6 +32,11 @@ static void techniqueRow(FieldEdit& edit, TechniqueChoice& choice) {
 }
 
 static double settingNumberWidget(const TechniqueSetting& s, double before) {
+    if (!s.choices.empty()) {
+        int chosen = int(before - s.range.lower);
+        settingWidget(s.setting, chosen, {.names = {}, .labels = s.choices});
+        return s.range.lower + chosen;
+    }
     if (s.whole && s.range.lower == 0 && s.range.upper == 1) {
         bool on = before > 0;
         settingWidget(s.setting, on);

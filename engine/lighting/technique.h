@@ -18,7 +18,9 @@ struct TechniqueSetting {
     Setting setting;
     SettingRange range;
     double usual = 0;   ///< default, if the document does not set it
-    bool whole = false; ///< a whole number; with range [0, 1], a switch
+    bool whole = false; ///< a whole number; with range [0, 1] and no choices, a switch
+    /// What the whole numbers from range.lower on mean, for people; empty: they are numbers.
+    std::span<const char* const> choices = {};
 };
 
 class StageStore;

@@ -2,6 +2,7 @@
 #include "engine/rsm/rsm_inputs.h"
 
 #include "engine/scene/light/unit_light.h"
+#include "engine/scene/mesh/input_hash.h"
 
 #include <algorithm>
 #include <iterator>
@@ -35,6 +36,34 @@ std::vector<RsmSource> rsmSourcesOf(const Scene& scene) {
         if (const Light& light = scene.lights[i]; shines(light))
             sources.push_back({i, unitLight(light), light.color * light.strength});
     return sources;
+}
+
+static bool shines(const Sky& sky) {
+    const auto lit = [](glm::vec3 radiance) { return radiance != glm::vec3(0); };
+    switch (sky.kind) {
+    case SkyKind::Color:
+        return lit(sky.radiance);
+    case SkyKind::Gradient:
+        return lit(sky.radiance) || lit(sky.horizon) || lit(sky.ground);
+    case SkyKind::Image:
+        return sky.strength > 0;
+    }
+    return false;
+}
+
+const char* sourcesLeftOut(const Scene& scene, const OtherSources& taken) {
+    const bool sky = !taken.sky && shines(scene.sky);
+    const bool emitters =
+        !taken.emitters && std::ranges::any_of(scene.instances, [&](const Instance& instance) {
+            return emits(scene.materialOf(instance));
+        });
+    if (sky && emitters)
+        return "this technique leaves out the light of the sky and of emissive surfaces";
+    if (sky)
+        return "this technique leaves out the light of the sky";
+    if (emitters)
+        return "this technique leaves out the light of emissive surfaces";
+    return nullptr;
 }
 
 } // namespace limn

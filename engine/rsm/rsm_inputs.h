@@ -39,4 +39,13 @@ struct RsmSource {
 /// The scene's lights that shine, in their order.
 std::vector<RsmSource> rsmSourcesOf(const Scene& scene);
 
+/// What else than its lights a technique takes light from.
+struct OtherSources {
+    bool emitters = false, sky = false;
+};
+
+/// LightingReport::lacks of a technique that takes light from `taken`: which sources of the scene's
+/// light it leaves out. Null: none.
+const char* sourcesLeftOut(const Scene& scene, const OtherSources& taken);
+
 } // namespace limn

@@ -3,6 +3,7 @@
 
 #include "engine/core/stopwatch.h"
 #include "engine/lighting/relight.h"
+#include "engine/rsm/rsm_inputs.h"
 #include "engine/techniques/light_skin/explain_skin.h"
 #include "engine/techniques/light_skin/skin_overlay.h"
 #include "engine/techniques/light_skin/skin_part.h"
@@ -36,6 +37,7 @@ public:
         describeSkin(m_state.objects(), m_state.bytes(), cost, report);
         report.steps.push_back(
             {"field", "Field", "Flux of the proxy lights in the lights' colours", fieldMs});
+        report.lacks = sourcesLeftOut(input.scene, {});
         report.totalMs = whole.lap();
         return report;
     }

@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/core/stopwatch.h"
 #include "engine/lighting/relight.h"
+#include "engine/rsm/rsm_inputs.h"
 #include "engine/techniques/lpv/lattice_sources.h"
 #include "engine/techniques/lpv/lpv_overlay.h"
 #include "engine/techniques/lpv/propagation.h"
@@ -28,6 +29,7 @@ public:
                 return relight(input, now, progress, cost);
             });
         describe(cost, report);
+        report.lacks = sourcesLeftOut(input.scene, {.emitters = true});
         report.totalMs = whole.lap();
         return report;
     }

@@ -2,6 +2,7 @@
 #include "engine/techniques/photon_lattices/live_photons.h"
 
 #include "engine/core/stopwatch.h"
+#include "engine/rsm/rsm_inputs.h"
 #include "engine/techniques/photon_lattices/explain_photons.h"
 #include "engine/techniques/photon_lattices/photon_overlay.h"
 #include "engine/techniques/photon_lattices/photon_report.h"
@@ -52,6 +53,8 @@ LightingReport LivePhotons::update(const Scene& scene, const Trace& trace,
         }
     }
     describePhotons(m_store, m_lit, m_field, {cost, fieldMs}, report);
+    report.lacks =
+        sourcesLeftOut(scene, {.emitters = m_lit.settings.emitters, .sky = m_lit.settings.sky});
     report.totalMs = whole.lap();
     return report;
 }

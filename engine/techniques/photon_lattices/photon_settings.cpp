@@ -5,6 +5,11 @@
 
 namespace limn {
 
+static constexpr std::array<const char*, 2> kModes = {"by the surfaces hit", "by directions"};
+static constexpr std::array<const char*, 6> kBlurs = {
+    "none", "6 neighbours", "3 x 3 x 3, weighted", "3 x 3 x 3", "5 x 5 x 5, weighted", "5 x 5 x 5"};
+static constexpr std::array<const char*, 3> kSplats = {"none", "caustics", "all light"};
+
 constinit const std::array<TechniqueSetting, 15> kPhotonSettings = {
     {{.setting = {.key = "photon-lattices.photons",
                   .label = "Photons of a light",
@@ -31,14 +36,15 @@ constinit const std::array<TechniqueSetting, 15> kPhotonSettings = {
       .usual = 8,
       .whole = true},
      {.setting = {.key = "photon-lattices.mode",
-                  .label = "Light from where it came",
-                  .tooltip = "Off: a surface receives the light of the photons in its cell that "
-                             "arrived on surfaces facing its way, which is never negative. On: "
+                  .label = "Light of a cell",
+                  .tooltip = "0: a surface receives the light of the photons in its cell that "
+                             "arrived on surfaces facing its way, which is never negative. 1: "
                              "that from the directions in which photons came, as in the thesis",
                   .invalidates = Invalidates::Light},
       .range = {0, 1},
       .usual = 0,
-      .whole = true},
+      .whole = true,
+      .choices = kModes},
      {.setting = {.key = "photon-lattices.blur",
                   .label = "Blur",
                   .tooltip = "Cells of the two coarse lattices that are averaged. 0: none, 1: six "
@@ -47,7 +53,8 @@ constinit const std::array<TechniqueSetting, 15> kPhotonSettings = {
                   .invalidates = Invalidates::Light},
       .range = {0, 5},
       .usual = 3,
-      .whole = true},
+      .whole = true,
+      .choices = kBlurs},
      {.setting = {.key = "photon-lattices.lookup",
                   .label = "Trilinear lookup",
                   .tooltip = "Off: a surface receives the light of its cell. On: of the eight "
@@ -103,7 +110,8 @@ constinit const std::array<TechniqueSetting, 15> kPhotonSettings = {
                   .invalidates = Invalidates::Light},
       .range = {0, 2},
       .usual = 0,
-      .whole = true},
+      .whole = true,
+      .choices = kSplats},
      {.setting = {.key = "photon-lattices.splat_radius",
                   .label = "Radius of splats",
                   .tooltip = "Radius of the discs as a share of the scene's longest side. Larger: "

@@ -2,6 +2,7 @@
 #include "engine/techniques/radiance_volumes/radiance_volumes.h"
 
 #include "engine/core/stopwatch.h"
+#include "engine/rsm/rsm_inputs.h"
 #include "engine/techniques/radiance_volumes/lit_volume.h"
 #include "engine/techniques/radiance_volumes/volume_overlay.h"
 #include "engine/techniques/radiance_volumes/volume_report.h"
@@ -34,6 +35,7 @@ public:
             }
         }
         describeVolume(m_lit, cost, report);
+        report.lacks = sourcesLeftOut(input.scene, {});
         report.totalMs = whole.lap();
         return report;
     }

@@ -5,6 +5,8 @@
 
 namespace limn {
 
+static constexpr std::array<const char*, 3> kShadows = {"none", "directional", "published"};
+
 constinit const std::array<TechniqueSetting, 14> kVolumeSettings = {
     {{.setting = {.key = "radiance-volumes.read",
                   .label = "Area lights along a side",
@@ -78,7 +80,8 @@ constinit const std::array<TechniqueSetting, 14> kVolumeSettings = {
                   .invalidates = Invalidates::Light},
       .range = {0, 2},
       .usual = 1,
-      .whole = true},
+      .whole = true,
+      .choices = kShadows},
      {.setting = {.key = "radiance-volumes.voxels",
                   .label = "Voxels along a side",
                   .tooltip =

@@ -3,6 +3,7 @@
 
 #include "engine/core/stopwatch.h"
 #include "engine/lighting/relight.h"
+#include "engine/rsm/rsm_inputs.h"
 #include "engine/scene/light/unit_light.h"
 #include "engine/techniques/light_skin/skin_overlay.h"
 #include "engine/techniques/light_skin/skin_report.h"
@@ -32,6 +33,7 @@ LightingReport DeviceSkin::update(const LightingInput& input, const Progress& pr
     if (m_pass)
         m_viewport.setIndirect(m_pass);
     describe(cost, report);
+    report.lacks = sourcesLeftOut(input.scene, {});
     report.totalMs = whole.lap();
     return report;
 }

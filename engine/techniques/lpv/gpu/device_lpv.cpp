@@ -3,6 +3,7 @@
 
 #include "engine/core/stopwatch.h"
 #include "engine/lighting/relight.h"
+#include "engine/rsm/rsm_inputs.h"
 #include "engine/scene/light/unit_light.h"
 #include "engine/techniques/lpv/lpv_overlay.h"
 
@@ -31,6 +32,7 @@ LightingReport DeviceLpv::update(const LightingInput& input, const Progress& pro
     if (m_gpu->field())
         m_viewport.setIndirect(m_gpu->field());
     describe(cost, report);
+    report.lacks = sourcesLeftOut(input.scene, {.emitters = true});
     report.totalMs = whole.lap();
     return report;
 }

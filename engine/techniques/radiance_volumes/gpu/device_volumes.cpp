@@ -3,6 +3,7 @@
 
 #include "engine/core/stopwatch.h"
 #include "engine/gpu/uploader.h"
+#include "engine/rsm/rsm_inputs.h"
 #include "engine/scene/light/unit_light.h"
 #include "engine/techniques/radiance_volumes/volume_overlay.h"
 
@@ -37,7 +38,7 @@ LightingReport DeviceVolumes::update(const LightingInput& input, const Progress&
     if (m_pass)
         m_viewport.setIndirect(m_pass);
     describe(cost, report);
-    report.lacks = m_lacks;
+    report.lacks = m_lacks ? m_lacks : sourcesLeftOut(input.scene, {});
     report.totalMs = whole.lap();
     return report;
 }
