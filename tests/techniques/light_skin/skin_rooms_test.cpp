@@ -2,6 +2,7 @@
 #include "engine/rsm/reflective_shadow_map.h"
 #include "engine/techniques/light_skin/gather_light.h"
 #include "tests/techniques/light_skin/lit_by_skin.h"
+#include "tests/techniques/lit_ceiling.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
@@ -160,22 +161,10 @@ TEST(SkinRooms, LeakThroughAWallAsFarAsDiscsLeaveGaps) {
     }
 }
 
-/// A lit ceiling, and a black box below it or none.
 Scene litCeiling(bool blocked, double spacing, double vals) {
-    simple::SceneBuilder b;
-    b.addMaterial(simple::lambert(glm::vec3(0.5f)));
-    b.addMaterial(simple::lambert(glm::vec3(0)));
-    b.add(simple::quad({-2, 3, -2}, {4, 0, 0}, {0, 0, 4})); // faces down
-    b.add(simple::quad({-2, 0, -2}, {0, 0, 4}, {4, 0, 0})); // faces up
-    if (blocked)
-        b.add(simple::box({-0.6f, 1, -0.6f}, {0.6f, 1.2f, 0.6f}, false, 1));
-    b.scene.lights = {{.kind = LightKind::Spot,
-                       .position = {0, 1.5f, 0},
-                       .direction = {0, 1, 0},
-                       .strength = 10,
-                       .outerAngle = 0.5f}};
-    b.scene.technique.settings = {{"light-skin.spacing", spacing}, {"light-skin.vals", vals}};
-    return b.build();
+    Scene scene = limn::litCeiling(blocked);
+    scene.technique.settings = {{"light-skin.spacing", spacing}, {"light-skin.vals", vals}};
+    return scene;
 }
 
 /// Irradiance of a floor's point from the ceiling's texels that it sees, as a share of all.

@@ -3,6 +3,8 @@
 
 #include "engine/core/parallel.h"
 #include "engine/field/field_reading.h"
+#include "engine/lighting/direct_irradiance.h"
+#include "tests/techniques/lit_ceiling.h"
 #include "tests/techniques/photon_lattices/lit_by_photons.h"
 #include "tests/techniques/two_lamps.h"
 
@@ -211,6 +213,66 @@ TEST(PhotonLattices, LeakAtTheFootOfAThinWall) {
         }
         EXPECT_EQ(before, 0) << "no cell reaches across two cells";
     }
+}
+
+/// Irradiance of points that face up under the lit ceiling, of one bounce, summed over a grid of
+/// the ceiling.
+std::vector<double> truthUnderCeiling(const Scene& scene, const std::vector<glm::vec3>& points) {
+    constexpr int kSide = 200;
+    std::vector<glm::vec3> ceiling;
+    for (int i = 0; i < kSide * kSide; ++i)
+        ceiling.emplace_back((float(i % kSide) + 0.5f) * 4 / kSide - 2, 3,
+                             (float(i / kSide) + 0.5f) * 4 / kSide - 2);
+    const TraceScene trace(scene);
+    DirectIrradiance direct;
+    const std::vector<glm::vec3> down(ceiling.size(), {0, -1, 0});
+    updateDirectIrradiance(ceiling, down, scene, trace, direct);
+    std::vector<double> all;
+    for (const glm::vec3 p : points) {
+        double sum = 0;
+        for (std::size_t i = 0; i < ceiling.size(); ++i) {
+            const glm::vec3 way = ceiling[i] - p;
+            const double r2 = double(glm::dot(way, way));
+            if (direct.irradiance[i].x > 0 &&
+                !trace.blocked(trace.clearOf(p, {0, 1, 0}), trace.clearOf(ceiling[i], down[i])))
+                sum += 0.5 / double(kPi) * double(direct.irradiance[i].x) * double(way.y * way.y) /
+                       (r2 * r2) * 16 / (kSide * kSide);
+        }
+        all.push_back(sum);
+    }
+    return all;
+}
+
+// The indirect shadow of an object is as sharp as a cell and its blur are.
+TEST(PhotonLattices, CastIndirectShadows) {
+    const std::vector<glm::vec3> floor = {
+        {0, 0, 0}, {0.7f, 0, 0}, {1, 0, 0}, {1.3f, 0, 0}, {1.8f, 0, 0}};
+    const Scene scene = litCeiling(true);
+    const std::vector<double> truth = truthUnderCeiling(scene, floor);
+    const auto print = [&](const char* what, const std::vector<double>& values) {
+        std::printf("%-26s", what);
+        for (const double e : values)
+            std::printf(" %6.3f", e);
+        std::printf("\n");
+        return values;
+    };
+    print("truth without the box", truthUnderCeiling(litCeiling(false), floor));
+    print("truth", truth);
+    const auto lit = [&](const char* what, const PhotonChoice& choice) {
+        LitByPhotons photons(scene, choice);
+        photons.update();
+        std::vector<double> values;
+        for (const glm::vec3 p : floor)
+            values.push_back(double(photons.irradiance(p + glm::vec3(0, 0, 0.01f), {0, 1, 0}).x));
+        return print(what, values);
+    };
+    lit("20 000, usual", {});
+    lit("20 000, no blur", {{"blur", 0}});
+    const std::vector<double> fine =
+        lit("1e6, 16 cells, no blur",
+            {{"photons", 1e6}, {"low", 8}, {"mid", 16}, {"blur", 0}, {"high", 8}});
+    EXPECT_LT(fine[0], 0.05 * truth[4]);
+    EXPECT_NEAR(fine[4], truth[4], 0.15 * truth[4]);
 }
 
 TEST(PhotonLattices, AreTheSameAtEveryScale) {
