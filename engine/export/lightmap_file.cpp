@@ -26,12 +26,23 @@ Result<void> checkRange(const LightmapImage& image, TextureEncoding encoding) {
     if (shared && minimum < 0)
         return fail("encoding: a shared exponent cannot hold the negative values of harmonics; use "
                     "half floats");
-    const float limit = shared ? 65408.f : 65504.f;
+    const float limit = shared ? 65408.f : 65504.f; // also of blocks
     if (std::max(maximum, -minimum) > limit)
         return fail(fmt::format("encoding: a value of {:.6g} exceeds {}, the largest that it can "
                                 "hold; use EXR or dim the lights",
                                 std::max(maximum, -minimum), limit));
     return {};
+}
+
+Ktx2Format ktx2FormatOf(TextureEncoding encoding, bool harmonics) {
+    switch (encoding) {
+    case TextureEncoding::Ktx2Rgb9e5:
+        return Ktx2Format::Rgb9e5;
+    case TextureEncoding::Ktx2Bc6h:
+        return harmonics ? Ktx2Format::Bc6hSigned : Ktx2Format::Bc6hUnsigned;
+    default:
+        return Ktx2Format::Rgba16f;
+    }
 }
 
 } // namespace
@@ -56,11 +67,11 @@ Result<ExportFile> lightmapFile(const LightmapImage& image, const ExportSettings
     } else {
         if (const Result<void> ok = checkRange(image, settings.encoding); !ok)
             return tl::make_unexpected(ok.error());
-        const bool volume = settings.layers == ShLayers::Volume;
         const std::uint32_t layers = image.layers > 1 ? image.layers : 0;
-        bytes = encodeKtx2({.format = settings.encoding == TextureEncoding::Ktx2Half
-                                          ? Ktx2Format::Rgba16f
-                                          : Ktx2Format::Rgb9e5,
+        const bool volume = settings.layers == ShLayers::Volume;
+        if (volume && layers > 0 && settings.encoding == TextureEncoding::Ktx2Bc6h)
+            return fail("layers: no consumer reads 3D textures of blocks; use an array");
+        bytes = encodeKtx2({.format = ktx2FormatOf(settings.encoding, layers > 0),
                             .width = image.width,
                             .height = image.height,
                             .layers = volume ? 0 : layers,

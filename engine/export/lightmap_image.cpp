@@ -283,7 +283,7 @@ Result<LightmapImage> lightmapImage(const ExportScene& scene, const ExportSettin
 
 /// Bytes of that many texels.
 static std::uint64_t encodedBytes(std::uint64_t texels, const ExportSettings& settings) {
-    constexpr std::array<std::uint64_t, 3> kBytes = {12, 8, 4}; // per texel, by TextureEncoding
+    constexpr std::array<std::uint64_t, 4> kBytes = {12, 8, 4, 1}; // a texel, by TextureEncoding
     const std::uint64_t layers = settings.bands > 1 ? settings.bands * settings.bands : 1;
     return kBytes[std::size_t(settings.encoding)] * layers * texels;
 }

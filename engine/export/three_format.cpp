@@ -26,6 +26,9 @@ static ExportSettings ownSettings(ExportSettings settings) {
 static Result<std::vector<ExportFile>> write(const ExportScene& scene,
                                              const ExportSettings& settings,
                                              const std::string& name, const Progress& progress) {
+    if (ownSettings(settings).encoding == TextureEncoding::Ktx2Bc6h)
+        return fail("encoding: the KTX2Loader of three.js reads no BC6H blocks; use half floats or "
+                    "shared exponents");
     const std::string stem = stemOf(name);
     const bool hasGrid = !scene.field.grid.empty();
     Json extras = Json::object();

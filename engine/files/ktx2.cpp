@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/ktx2.h"
 
+#include "engine/core/parallel.h"
+#include "engine/files/bc6h.h"
 #include "engine/files/ktx2_layout.h"
 #include "engine/math/packing.h"
 
@@ -92,7 +94,7 @@ std::string headOf(const Ktx2Shape& shape, std::uint64_t bytes, std::uint64_t st
         putWord(out, word);
     putLong(out, 0); // no global supercompression data
     putLong(out, 0);
-    const std::size_t alignment = shape.zstd ? 1 : ktx2TexelBytes(shape.format);
+    const std::size_t alignment = shape.zstd ? 1 : ktx2BlockBytes(shape.format);
     std::string rest = descriptor + keys;
     rest.insert(0, kKtx2Header, '\0'); // so that padding counts from the file's begin
     padTo(rest, alignment);
@@ -103,6 +105,35 @@ std::string headOf(const Ktx2Shape& shape, std::uint64_t bytes, std::uint64_t st
     return out + rest.substr(kKtx2Header);
 }
 
+/// Blocks by layer, row and column. What lies beyond an edge repeats it.
+template <class Texel>
+std::string blocksOf(const Ktx2Shape& shape, std::span<const Texel> texels) {
+    const Bc6hSign sign =
+        shape.format == Ktx2Format::Bc6hSigned ? Bc6hSign::Signed : Bc6hSign::Unsigned;
+    const std::size_t columns = (shape.width + 3) / 4, rows = (shape.height + 3) / 4;
+    std::string bytes(shape.bytes(), '\0');
+    parallelRanges(
+        bytes.size() / sizeof(Bc6hBlock) / columns, 1, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t row = begin; row < end; ++row)
+                for (std::size_t column = 0; column < columns; ++column) {
+                    Bc6hTexels block;
+                    for (std::size_t i = 0; i < block.size(); ++i) {
+                        const std::size_t x =
+                            std::min<std::size_t>(4 * column + i % 4, shape.width - 1);
+                        const std::size_t y =
+                            std::min<std::size_t>(4 * (row % rows) + i / 4, shape.height - 1);
+                        block[i] =
+                            glm::vec3(texels[(row / rows * shape.height + y) * shape.width + x]);
+                    }
+                    const Bc6hBlock encoded = encodeBc6h(block, sign);
+                    std::ranges::copy(
+                        encoded,
+                        bytes.begin() + std::ptrdiff_t((row * columns + column) * encoded.size()));
+                }
+        });
+    return bytes;
+}
+
 template <class Texel>
 Result<std::string> encode(const Ktx2Shape& shape, std::span<const Texel> texels) {
     if (shape.width == 0 || shape.height == 0)
@@ -111,9 +142,13 @@ Result<std::string> encode(const Ktx2Shape& shape, std::span<const Texel> texels
         return fail("KTX2: a 3D texture cannot be an array");
     assert(texels.size() == shape.texels());
     std::string bytes;
-    bytes.reserve(texels.size() * ktx2TexelBytes(shape.format));
-    for (const Texel& texel : texels)
-        putTexel(bytes, shape.format, withAlpha(texel));
+    if (ktx2BlockSide(shape.format) > 1) {
+        bytes = blocksOf(shape, texels);
+    } else {
+        bytes.reserve(shape.bytes());
+        for (const Texel& texel : texels)
+            putTexel(bytes, shape.format, withAlpha(texel));
+    }
     const std::size_t size = bytes.size();
     if (shape.zstd) {
         Result<std::string> smaller = packed(bytes);

@@ -22,10 +22,16 @@ enum class Ktx2Format : std::uint32_t {
     Rgba16f = 97,  ///< VK_FORMAT_R16G16B16A16_SFLOAT
     Rgba32f = 109, ///< VK_FORMAT_R32G32B32A32_SFLOAT
     Rgb9e5 = 123,  ///< VK_FORMAT_E5B9G9R9_UFLOAT_PACK32
+    /// VK_FORMAT_BC6H_UFLOAT_BLOCK, without negative values. As in all formats of blocks, what lies
+    /// beyond the right or lower edge repeats it.
+    Bc6hUnsigned = 143,
+    Bc6hSigned = 144, ///< VK_FORMAT_BC6H_SFLOAT_BLOCK
 };
 
-/// Bytes of a texel.
-std::uint32_t ktx2TexelBytes(Ktx2Format format);
+/// Texels along a side of the blocks that a format consists of; 1: single texels.
+std::uint32_t ktx2BlockSide(Ktx2Format format);
+/// Bytes of a block.
+std::uint32_t ktx2BlockBytes(Ktx2Format format);
 
 /// Shape of a texture. At most one of `layers` and `depth` is not 0.
 struct Ktx2Shape {
@@ -40,19 +46,25 @@ struct Ktx2Shape {
         const std::uint64_t images = depth > 0 ? depth : layers > 0 ? layers : 1;
         return std::uint64_t(width) * height * images;
     }
+    /// Bytes of all layers or slices, not compressed with Zstandard.
+    std::uint64_t bytes() const {
+        const std::uint32_t side = ktx2BlockSide(format);
+        const std::uint64_t columns = (width + side - 1) / side, rows = (height + side - 1) / side;
+        return texels() / (std::uint64_t(width) * height) * columns * rows * ktx2BlockBytes(format);
+    }
     bool operator==(const Ktx2Shape&) const = default;
 };
 
 /// Encodes texels, x fastest, then y from the top row down, then layers or slices. There must be
 /// shape.texels() of them. Half floats are rounded to nearest even and clamped to +-65504; Rgb9e5
-/// as by packRgb9e5(), without alpha. NaN becomes 0. Fails on an empty texture, one that is both an
-/// array and 3D, and where memory is short.
+/// as by packRgb9e5(), without alpha; blocks as by encodeBc6h(), on all cores. NaN becomes 0. Fails
+/// on an empty texture, one that is both an array and 3D, and where memory is short.
 Result<std::string> encodeKtx2(const Ktx2Shape& shape, std::span<const glm::vec4> texels);
 
 /// Same with an alpha of 1.
 Result<std::string> encodeKtx2(const Ktx2Shape& shape, std::span<const glm::vec3> texels);
 
-/// A texture that was read, in the order of encodeKtx2(); alpha is 1 for Rgb9e5.
+/// A texture that was read, in the order of encodeKtx2(); alpha is 1 where a format has none.
 struct Ktx2Texture {
     Ktx2Shape shape;
     std::vector<glm::vec4> texels; ///< finite

@@ -46,6 +46,11 @@ std::vector<Sample> samplesOf(Ktx2Format format) {
         return floatSamples(32);
     case Ktx2Format::Rgb9e5:
         return sharedExponentSamples();
+    case Ktx2Format::Bc6hUnsigned:
+        return {{0, 128, kFloat, 0, std::bit_cast<std::uint32_t>(1.f)}};
+    case Ktx2Format::Bc6hSigned:
+        return {{0, 128, kFloat | kSigned, std::bit_cast<std::uint32_t>(-1.f),
+                 std::bit_cast<std::uint32_t>(1.f)}};
     }
     return {};
 }
@@ -57,33 +62,42 @@ void put(std::string& out, std::uint32_t word) {
 
 } // namespace
 
-std::uint32_t ktx2TexelBytes(Ktx2Format format) {
+std::uint32_t ktx2BlockSide(Ktx2Format format) {
+    return format == Ktx2Format::Bc6hUnsigned || format == Ktx2Format::Bc6hSigned ? 4 : 1;
+}
+
+std::uint32_t ktx2BlockBytes(Ktx2Format format) {
     switch (format) {
     case Ktx2Format::Rgba16f:
         return 8;
-    case Ktx2Format::Rgba32f:
-        return 16;
     case Ktx2Format::Rgb9e5:
         return 4;
+    case Ktx2Format::Rgba32f:
+    case Ktx2Format::Bc6hUnsigned:
+    case Ktx2Format::Bc6hSigned:
+        return 16;
     }
     return 0;
 }
 
 std::uint32_t ktx2TypeSize(Ktx2Format format) {
+    if (ktx2BlockSide(format) > 1)
+        return 1;
     return format == Ktx2Format::Rgba16f ? 2 : 4;
 }
 
 std::string ktx2Descriptor(Ktx2Format format, bool sized) {
-    constexpr std::uint32_t kVersion = 2, kRgbsda = 1, kBt709 = 1, kLinear = 1;
+    constexpr std::uint32_t kVersion = 2, kRgbsda = 1, kBc6h = 133, kBt709 = 1, kLinear = 1;
+    const std::uint32_t side = ktx2BlockSide(format);
     const std::vector<Sample> samples = samplesOf(format);
     const auto block = std::uint32_t(24 + 16 * samples.size());
     std::string out;
     put(out, 4 + block);
     put(out, 0); // vendor: Khronos; type: basic format
     put(out, kVersion | block << 16);
-    put(out, kRgbsda | kBt709 << 8 | kLinear << 16);
-    put(out, 0); // blocks of 1 x 1 x 1 x 1 texels
-    put(out, sized ? ktx2TexelBytes(format) : 0);
+    put(out, (side > 1 ? kBc6h : kRgbsda) | kBt709 << 8 | kLinear << 16);
+    put(out, (side - 1) | (side - 1) << 8); // of side x side x 1 x 1 texels
+    put(out, sized ? ktx2BlockBytes(format) : 0);
     put(out, 0);
     for (const Sample& s : samples) {
         put(out, s.bitOffset | (s.bits - 1) << 16 | s.channel << 24);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/ktx2.h"
 
+#include "engine/files/bc6h.h"
 #include "engine/files/ktx2_layout.h"
 #include "engine/math/packing.h"
 
@@ -94,8 +95,7 @@ Result<void> checkKeys(Bytes file, const Ktx2Shape& shape) {
 
 Result<void> checkLevel(Bytes file, const Ktx2Shape& shape) {
     const Level level = levelOf(file);
-    const std::uint64_t expected = shape.texels() * ktx2TexelBytes(shape.format);
-    if (level.bytes != expected)
+    if (level.bytes != shape.bytes())
         return malformed("size of the texels");
     const std::uint64_t head = std::max(
         {std::uint64_t(kKtx2Header),
@@ -104,7 +104,7 @@ Result<void> checkLevel(Bytes file, const Ktx2Shape& shape) {
     if (level.offset < head || !within(file, level.offset, level.stored))
         return malformed("texels out of the file");
     if (!shape.zstd &&
-        (level.stored != level.bytes || level.offset % ktx2TexelBytes(shape.format) != 0))
+        (level.stored != level.bytes || level.offset % ktx2BlockBytes(shape.format) != 0))
         return malformed("place of the texels");
     return {};
 }
@@ -120,6 +120,8 @@ Result<Ktx2Shape> shapeOf(Bytes file) {
     case std::uint32_t(Ktx2Format::Rgba16f):
     case std::uint32_t(Ktx2Format::Rgba32f):
     case std::uint32_t(Ktx2Format::Rgb9e5):
+    case std::uint32_t(Ktx2Format::Bc6hUnsigned):
+    case std::uint32_t(Ktx2Format::Bc6hSigned):
         shape.format = Ktx2Format(word(kKtx2VkFormat));
         break;
     default:
@@ -151,7 +153,7 @@ float finiteHalf(Bytes texels, std::size_t offset, bool& finite) {
 }
 
 glm::vec4 texelAt(Bytes texels, Ktx2Format format, std::size_t i, bool& finite) {
-    const std::size_t offset = i * ktx2TexelBytes(format);
+    const std::size_t offset = i * ktx2BlockBytes(format);
     if (format == Ktx2Format::Rgb9e5)
         return {unpackRgb9e5(wordAt(texels, offset)), 1};
     glm::vec4 texel;
@@ -164,6 +166,25 @@ glm::vec4 texelAt(Bytes texels, Ktx2Format format, std::size_t i, bool& finite) 
         }
     }
     return texel;
+}
+
+void readBlocks(Bytes bytes, Ktx2Texture& texture) {
+    const Ktx2Shape& shape = texture.shape;
+    const Bc6hSign sign =
+        shape.format == Ktx2Format::Bc6hSigned ? Bc6hSign::Signed : Bc6hSign::Unsigned;
+    const std::size_t columns = (shape.width + 3) / 4, rows = (shape.height + 3) / 4;
+    Bc6hBlock block;
+    for (std::size_t b = 0; b < bytes.size() / block.size(); ++b) {
+        std::ranges::copy(bytes.subspan(b * block.size(), block.size()), block.begin());
+        const Bc6hTexels texels = decodeBc6h(block, sign);
+        const std::size_t row = b / columns, layer = row / rows;
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            const std::size_t x = 4 * (b % columns) + i % 4, y = 4 * (row % rows) + i / 4;
+            if (x < shape.width && y < shape.height)
+                texture.texels[(layer * shape.height + y) * shape.width + x] =
+                    glm::vec4(texels[i], 1);
+        }
+    }
 }
 
 } // namespace
@@ -198,6 +219,10 @@ Result<Ktx2Texture> decodeKtx2(Bytes file, const MemoryBudget& memory) {
         texels = unpacked;
     }
     Ktx2Texture texture{*shape, std::vector<glm::vec4>(shape->texels())};
+    if (ktx2BlockSide(shape->format) > 1) {
+        readBlocks(texels, texture); // which are finite
+        return texture;
+    }
     bool finite = true;
     for (std::size_t i = 0; i < texture.texels.size(); ++i)
         texture.texels[i] = texelAt(texels, shape->format, i, finite);

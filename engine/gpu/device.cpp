@@ -130,13 +130,14 @@ struct OptionalFeature {
     VkBool32 VkPhysicalDeviceFeatures::*member;
     const char* what;
 };
-static constexpr std::array<OptionalFeature, 5> kOptional = {{
+static constexpr std::array<OptionalFeature, 6> kOptional = {{
     {&VkPhysicalDeviceFeatures::samplerAnisotropy, "anisotropic filters"},
     {&VkPhysicalDeviceFeatures::fillModeNonSolid, "wireframes"},
     {&VkPhysicalDeviceFeatures::shaderSampledImageArrayDynamicIndexing,
      "dynamic indices of textures"},
     {&VkPhysicalDeviceFeatures::shaderStorageImageExtendedFormats, "storage images of 8 bits"},
     {&VkPhysicalDeviceFeatures::fragmentStoresAndAtomics, "stores by fragment shaders"},
+    {&VkPhysicalDeviceFeatures::textureCompressionBC, "textures of BC blocks"},
 }};
 
 /// Those of kOptional that the device has; lists the others in Device::lacking.

@@ -12,6 +12,7 @@ enum class TextureEncoding : std::uint8_t {
     Exr,        ///< 32-bit float, row 0 at the top
     Ktx2Half,   ///< RGBA, binary16
     Ktx2Rgb9e5, ///< 32 bits per texel: 9 bits per channel with a shared exponent
+    Ktx2Bc6h,   ///< 8 bits per texel: blocks of 4 x 4 texels; signed for harmonics
 };
 
 /// Quantity that the texels of a lightmap hold. E is irradiance [W m^-2], rho the albedo.

@@ -13,10 +13,10 @@ namespace limn {
 // Names of the values of the export settings' enumerations, in their order: identifiers for files
 // and the command line, labels for the user interface.
 
-inline constexpr std::array<std::string_view, 3> kTextureEncodingNames = {"exr", "ktx2-half",
-                                                                          "ktx2-rgb9e5"};
-inline constexpr std::array<const char*, 3> kTextureEncodingLabels = {"EXR", "KTX2, half float",
-                                                                      "KTX2, shared exponent"};
+inline constexpr std::array<std::string_view, 4> kTextureEncodingNames = {
+    "exr", "ktx2-half", "ktx2-rgb9e5", "ktx2-bc6h"};
+inline constexpr std::array<const char*, 4> kTextureEncodingLabels = {
+    "EXR", "KTX2, half float", "KTX2, shared exponent", "KTX2, BC6H blocks"};
 inline constexpr std::array<std::string_view, 3> kLightmapQuantityNames = {
     "irradiance", "irradiance-over-pi", "radiance"};
 inline constexpr std::array<const char*, 3> kLightmapQuantityLabels = {
@@ -37,7 +37,8 @@ void visitExportSettings(S& s, const Visit& visit) {
                   .label = "Texture files",
                   .help = "File format of textures",
                   .tooltip = "File format of the light's textures. KTX2 loads fastest; EXR is "
-                             "read by most tools",
+                             "read by most tools. BC6H takes a byte a texel, an eighth of half "
+                             "floats, on GPUs that know it: those of computers, not of phones",
                   .invalidates = Invalidates::Light},
           s.encoding, SettingChoices{kTextureEncodingNames, kTextureEncodingLabels});
     visit(Setting{.key = "compress",

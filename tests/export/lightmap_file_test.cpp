@@ -55,4 +55,25 @@ TEST(LightmapFile, LightThatTheEncodingCannotHoldIsRefused) {
     EXPECT_TRUE(lightmapFile(image(4, glm::vec3(-65504)), settings, "room"));
 }
 
+TEST(LightmapFile, BlocksTakeAnEighthOfHalfFloats) {
+    ExportSettings settings;
+    settings.encoding = TextureEncoding::Ktx2Bc6h;
+    LightmapImage room{32, 12, 1, std::vector<glm::vec3>(std::size_t(32) * 12)};
+    for (std::size_t i = 0; i < room.rgb.size(); ++i)
+        room.rgb[i] = glm::vec3(2, 1, 0.5f) * (1 + 0.01f * float(i % 32));
+    const ExportFile blocks = *lightmapFile(room, settings, "room");
+    EXPECT_EQ(shapeOf(blocks), (Ktx2Shape{Ktx2Format::Bc6hUnsigned, 32, 12}));
+    settings.encoding = TextureEncoding::Ktx2Half;
+    const ExportFile halfs = *lightmapFile(room, settings, "room");
+    EXPECT_EQ(halfs.bytes.size() - blocks.bytes.size(), std::size_t(32) * 12 * (8 - 1) + 48)
+        << "a descriptor of one sample, not of four";
+    settings.encoding = TextureEncoding::Ktx2Bc6h;
+    EXPECT_FALSE(lightmapFile(image(1, glm::vec3(65505)), settings, "room"));
+    const LightmapImage harmonics = image(4, glm::vec3(-1));
+    EXPECT_EQ(shapeOf(*lightmapFile(harmonics, settings, "room")),
+              (Ktx2Shape{Ktx2Format::Bc6hSigned, 2, 1, 4}));
+    settings.layers = ShLayers::Volume;
+    EXPECT_FALSE(lightmapFile(harmonics, settings, "room"));
+}
+
 } // namespace limn::lightmap_file_test

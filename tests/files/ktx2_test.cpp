@@ -147,6 +147,28 @@ TEST(Ktx2, WhatDoesNotFitIsClampedAndNotANumberIsZero) {
               std::numeric_limits<float>::max());
 }
 
+// Sides that four does not divide have blocks of which a part lies beyond the edge.
+TEST(Ktx2, BlocksComeBackInOrder) {
+    for (const Ktx2Format format : {Ktx2Format::Bc6hUnsigned, Ktx2Format::Bc6hSigned})
+        for (const bool zstd : {false, true})
+            for (const Ktx2Shape shape :
+                 {Ktx2Shape{format, 1, 1, 0, 0, zstd}, Ktx2Shape{format, 9, 6, 0, 0, zstd},
+                  Ktx2Shape{format, 8, 5, 3, 0, zstd}, Ktx2Shape{format, 3, 13, 0, 2, zstd}}) {
+                const float sign = format == Ktx2Format::Bc6hSigned ? -1 : 1;
+                std::vector<glm::vec4> texels(shape.texels());
+                for (std::size_t i = 0; i < texels.size(); ++i) {
+                    const std::size_t x = i % shape.width, row = i / shape.width;
+                    const std::size_t y = row % shape.height, image = row / shape.height;
+                    // Even in each block, so that it is exact.
+                    texels[i] =
+                        glm::vec4(sign * float(x / 4 + 1), float(y / 4 + 1), float(image + 1), 1);
+                }
+                const std::string file = encoded(shape, texels);
+                EXPECT_EQ(decoded(file), texels) << shape.width << " " << zstd;
+                EXPECT_EQ(*readKtx2Shape(bytesOf(file)), shape);
+            }
+}
+
 TEST(Ktx2, ImpossibleTexturesAreRefused) {
     const std::vector<glm::vec4> none;
     EXPECT_FALSE(encodeKtx2({.width = 0}, none));
