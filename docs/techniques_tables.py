@@ -96,11 +96,12 @@ def object_table(scenes):
 
 
 def live_table(scenes):
-    print("| scene | technique | on | SSIM | FLIP | leak | flicker | lag |")
+    print("| scene | technique | on | SSIM | FLIP | leak | flicker: lights, camera, objects | lag |")
     print("|---|---|---|---|---|---|---|---|")
     for label, technique, r in shown_rows(scenes):
         leak = "–" if r["leak"] is None else percent(r["leak"])
-        flicker = "–" if r["flicker"] is None else f'{r["flicker"]:+.3f}'
+        flicker = ", ".join("–" if r.get(key) is None else f"{r[key]:+.3f}"
+                            for key in ("flicker", "camera_flicker", "object_flicker"))
         lag = "–" if r["lag"] is None else r["lag"]
         print(f'| {label} | {technique} | {device(r)} | {r["ssim"]:.2f} | {r["flip"]:.2f} | '
               f"{leak} | {flicker} | {lag} |")

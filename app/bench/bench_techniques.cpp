@@ -66,6 +66,8 @@ constexpr Column kTechniqueColumns[] = {{"scene", -10, "scene"},
                                         {"FLIP", 6, "flip", 3},
                                         {"leak %", 7, "leak", 2, 100},
                                         {"flick. %", 8, "flicker", 2, 100},
+                                        {"cam. fl. %", 10, "camera_flicker", 2, 100},
+                                        {"obj. fl. %", 10, "object_flicker", 2, 100},
                                         {"lag", 5, "lag"},
                                         {"to CPU %", 8, "cpu_difference_rms", 3, 100},
                                         {"max %", 7, "cpu_difference_max", 3, 100}};

@@ -39,7 +39,11 @@ Result<MeasuredScene> openMeasured(const SceneOptions& options, const CameraOpti
     lit.view = View::Lit;
     lit.samplesPerPixel = samplesPerPixel;
     m.lit = renderReference(*m.trace, lit, progressOnStderr()).image;
-    m.motion = renderMotion(*m.trace, m.view);
+    std::vector<Motion> motions = {Motion::Lights, Motion::Camera};
+    if (std::ranges::any_of(m.scene.instances, &Instance::dynamic))
+        motions.push_back(Motion::Objects);
+    for (const Motion motion : motions)
+        m.motions.push_back(renderMotion(motion, *m.trace, m.view, m.all));
     endProgressLine();
     return m;
 }

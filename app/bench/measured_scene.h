@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "app/bench/live_light.h"
+#include "app/bench/smooth_motion.h"
 #include "app/commands/scene_options.h"
 
 #include "engine/measure/reference_set.h"
@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace limn {
 
@@ -19,9 +20,9 @@ struct MeasuredScene {
     Scene scene;
     std::unique_ptr<TraceScene> trace;
     ReferenceOptions view;
-    ReferenceSet one, all; ///< of one bounce, and of all
-    ImageF lit;            ///< with direct light and all bounces
-    MotionTruth motion;    ///< of irradiance while lights move
+    ReferenceSet one, all;            ///< of one bounce, and of all
+    ImageF lit;                       ///< with direct light and all bounces
+    std::vector<MotionTruth> motions; ///< of lights, camera and, where there are any, objects
 };
 
 /// Opens a scene and renders its references. `samplesPerPixel`: of all references of a kind

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/technique_point.h"
 
+#include "app/bench/live_light.h"
 #include "app/bench/time_limit.h"
 #include "app/commands/progress_line.h"
 
@@ -8,6 +9,7 @@
 #include "engine/measure/compare.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -16,6 +18,9 @@
 namespace limn {
 
 namespace {
+
+/// Columns of the flicker of each Motion.
+constexpr std::array<const char*, 3> kFlickerKeys = {"flicker", "camera_flicker", "object_flicker"};
 
 double bytesOf(const std::vector<LightingCounter>& counters) {
     double sum = 0;
@@ -38,8 +43,11 @@ Result<void> addLiveColumns(const MeasuredScene& m, const LeakRoom& room, const 
     if (!leak && !limit.over())
         return fail(fmt::format("leak, {}: {}", c.variant.name, leak.error().message));
     row["leak"] = leak ? finite(*leak) : Json(nullptr);
-    const std::optional<double> flicker = live.flicker(m.motion, limit.progress());
-    row["flicker"] = flicker ? finite(*flicker) : Json(nullptr);
+    for (const char* key : kFlickerKeys)
+        row[key] = nullptr;
+    for (const MotionTruth& truth : m.motions)
+        if (const std::optional<double> flicker = live.flicker(truth, limit.progress()))
+            row[kFlickerKeys[std::size_t(truth.motion)]] = finite(*flicker);
     const std::optional<std::uint32_t> lag = live.lag(limit.progress());
     row["lag"] = lag ? Json(*lag) : Json(nullptr);
     return {};

@@ -153,7 +153,8 @@ std::string allRows(const std::vector<Json>& rows) {
         "<table><tr><th>technique</th><th>settings</th><th>device</th><th>precompute [s]</th>"
         "<th>MiB</th><th>light moves [ms]</th><th>colour</th><th>material</th><th>object</th>"
         "<th>camera</th><th>nRMSE</th><th>bias</th><th>nRMSE, one bounce</th><th>bias</th>"
-        "<th>SSIM</th><th>FLIP</th><th>leak</th><th>flicker</th><th>lag</th>"
+        "<th>SSIM</th><th>FLIP</th><th>leak</th><th>flicker: lights</th><th>camera</th>"
+        "<th>objects</th><th>lag</th>"
         "<th>difference to the CPU</th><th>largest</th></tr>\n";
     for (const Json& r : rows) {
         const auto cell = [&html](const std::string& text) { html += "<td>" + text + "</td>"; };
@@ -171,7 +172,8 @@ std::string allRows(const std::vector<Json>& rows) {
         cell(number(r["ssim"], "{:.3f}"));
         cell(number(r["flip"], "{:.3f}"));
         cell(number(r["leak"], "{:.2f} %", 0.01));
-        cell(number(r["flicker"], "{:+.2f} %", 0.01));
+        for (const char* key : {"flicker", "camera_flicker", "object_flicker"})
+            cell(number(r[key], "{:+.2f} %", 0.01));
         cell(number(r["lag"], "{:.0f}"));
         cell(number(r["cpu_difference_rms"], "{:.3f} %", 0.01));
         cell(number(r["cpu_difference_max"], "{:.3f} %", 0.01));
@@ -230,8 +232,11 @@ Result<std::string> techniquesPage(const std::vector<PageScene>& scenes,
         "there.</p>\n"
         "<p>SSIM (1: equal) and FLIP (0: equal) are those of the tone-mapped picture with direct "
         "light. Flicker and lag are measured as the editor shows light, with one update a frame. "
-        "Flicker is the change of irradiance between frames of a smooth move of the lights, less "
-        "that of path tracing, relative to the mean: below 0 light lags behind. Lag is the number "
+        "Flicker is the change of irradiance between frames, less that of path tracing, relative "
+        "to the mean, while the lights, the camera or the dynamic objects move smoothly: below 0 "
+        "light lags behind. It is that of the same places in all frames: for the camera, of what "
+        "it sees in each of them, for objects, of static surfaces that they never hide. Lag is the "
+        "number "
         "of updates after a jump of the lights until irradiance is within 5 % of what it becomes; "
         "empty: it never is, or was not within the time of the measurement. Leak is the mean "
         "irradiance in a sealed dark room over that in the "

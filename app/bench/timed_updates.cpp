@@ -2,11 +2,11 @@
 #include "app/bench/timed_updates.h"
 
 #include "app/bench/moving_lights.h"
+#include "app/bench/smooth_motion.h"
 
 #include "engine/lighting/fastest_update.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -25,11 +25,9 @@ Scene withOtherLight(const Scene& scene, int k) {
     return other;
 }
 
-/// The camera turned about the vertical [rad].
-Viewpoint turned(Viewpoint view, float angle) {
-    const glm::vec3 d = view.camera.target - view.camera.eye;
-    const float c = std::cos(angle), s = std::sin(angle);
-    view.camera.target = view.camera.eye + glm::vec3(c * d.x + s * d.z, d.y, c * d.z - s * d.x);
+/// The view with its camera turned about the vertical [rad].
+Viewpoint turnedView(Viewpoint view, float angle) {
+    view.camera.target = view.camera.eye + turned(view.camera.target - view.camera.eye, angle);
     return view;
 }
 
@@ -87,7 +85,7 @@ UpdateTimes timeUpdates(Lighting& lighting, const Scene& scene, const TraceScene
         });
         update(scene, trace);
     }
-    const Viewpoint aside = turned(view, view.camera.fovY / 3);
+    const Viewpoint aside = turnedView(view, view.camera.fovY / 3);
     times.camera = median(runs, [&](int k) {
         const Scene changed = withOtherLight(scene, k);
         const auto look = [&](const Viewpoint& from, std::uint32_t bounces) {

@@ -2,6 +2,7 @@
 #include "app/bench/light_place.h"
 #include "app/bench/live_light.h"
 #include "app/bench/moving_lights.h"
+#include "app/bench/smooth_motion.h"
 #include "app/bench/techniques_page.h"
 #include "app/bench/time_limit.h"
 #include "app/bench/timed_updates.h"
@@ -19,6 +20,9 @@
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <vector>
+
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace limn::bench_techniques_test {
 namespace {
@@ -45,6 +49,8 @@ Json row(const char* technique, const char* settings, double ms, double nrmse,
             {"flip", 0.1},
             {"leak", 0.015},
             {"flicker", -0.002},
+            {"camera_flicker", 0.001},
+            {"object_flicker", nullptr},
             {"lag", nullptr},
             {"cpu_difference_rms", 0.00012},
             {"cpu_difference_max", nullptr}};
@@ -73,7 +79,8 @@ TEST(TechniquesPage, NeedsNoOtherFileAndEscapesNames) {
     EXPECT_NE(html->find("a &lt; b"), std::string::npos);
     EXPECT_NE(html->find("A &amp; Co"), std::string::npos);
     EXPECT_NE(html->find("thin &amp; thick walls"), std::string::npos);
-    EXPECT_NE(html->find("<td>0.800</td><td>0.100</td><td>1.50 %</td><td>-0.20 %</td><td></td>"),
+    EXPECT_NE(html->find("<td>0.800</td><td>0.100</td><td>1.50 %</td><td>-0.20 %</td>"
+                         "<td>+0.10 %</td><td></td><td></td>"),
               std::string::npos);
     EXPECT_NE(html->find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);
     for (const char* outside : {"http:", "https:", "<script", "inf", "nan"})
@@ -114,6 +121,9 @@ TEST(LiveLight, FlickerIsTheChangeBeyondThatOfTheTruthWithoutItsNoise) {
     const std::vector<limn::ImageF> a = {grey({9, 9}), grey({13, 7}), grey({11, 11})},
                                     b = {grey({9, 9}), grey({13, 13}), grey({11, 11})};
     EXPECT_NEAR(limn::flickerOf(truth, a, b), 0, 1e-6);
+    // A truth of one frame does not change.
+    const std::vector<limn::ImageF> constant = {grey({4, 6})};
+    EXPECT_NEAR(limn::flickerOf(twice, constant, constant), 2. / 5, 1e-6);
 }
 
 TEST(LiveLight, DistanceIsRelativeToTheGoal) {
@@ -121,11 +131,13 @@ TEST(LiveLight, DistanceIsRelativeToTheGoal) {
     EXPECT_EQ(limn::distanceOf(grey({0, 0}), grey({0, 0})), 0);
 }
 
-/// A room with a lamp in a corner.
-limn::Scene lampRoom() {
+/// A room with a lamp in a corner. `block`: with a block that moves.
+limn::Scene lampRoom(bool block = false) {
     limn::simple::SceneBuilder b;
     b.addMaterial(limn::simple::lambert(glm::vec3(0.5f)));
     b.add(limn::simple::box(glm::vec3(0), glm::vec3(4), true));
+    if (block)
+        b.add(limn::simple::box({3, 0, 3}, {3.5f, 1, 3.5f}, false), glm::mat4(1), true);
     b.scene.lights = {{.kind = limn::LightKind::Point, .position = {3.5f, 3.5f, 3.5f}},
                       {.kind = limn::LightKind::Directional, .direction = {0, 0, -1}}};
     return b.build();
@@ -145,6 +157,88 @@ TEST(LiveLight, LightsMoveTowardsTheMiddleAndTurn) {
     const limn::Scene brighter = limn::withLightsMoved(dark, 0.5f);
     EXPECT_EQ(brighter.sky.radiance, glm::vec3(3));
     EXPECT_EQ(brighter.materials[0].emission, glm::vec3(4.5f));
+}
+
+/// A wall of 20 m, and before it a pane, which moves, 1 m wide and 2 m high.
+limn::Scene paneBeforeWall() {
+    limn::simple::SceneBuilder b;
+    b.addMaterial(limn::simple::lambert(glm::vec3(0.5f)));
+    b.add(limn::simple::quad({-10, -10, 0}, {20, 0, 0}, {0, 20, 0}));
+    b.add(limn::simple::quad({-0.5f, -1, 0}, {1, 0, 0}, {0, 2, 0}),
+          glm::translate(glm::mat4(1), glm::vec3(0, 0, 2)), true);
+    return b.build();
+}
+
+/// Number of a pixel's middle and corners for which `inside` holds, where the camera sees them in
+/// the plane z = `depth`.
+template <class Inside>
+int insideOf(const limn::Camera& camera, glm::uvec2 size, std::uint32_t pixel, float depth,
+             const Inside& inside) {
+    int count = 0;
+    const float aspect = float(size.x) / float(size.y);
+    for (const glm::vec2 place : {glm::vec2(0.5f), {0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
+        const glm::vec2 ndc =
+            2.f * (glm::vec2(float(pixel % size.x), float(pixel / size.x)) + place) /
+                glm::vec2(size) -
+            1.f;
+        const glm::vec3 d = limn::rayDirection(camera, aspect, ndc.x, -ndc.y);
+        count += inside(camera.eye + d * ((depth - camera.eye.z) / d.z)) ? 1 : 0;
+    }
+    return count;
+}
+
+TEST(SmoothMotion, PixelsAreComparedThatShowTheSameSurfacesInAllFrames) {
+    const limn::Scene scene = paneBeforeWall();
+    const limn::TraceScene trace(scene);
+    limn::ReferenceOptions view{.width = 40, .height = 24};
+    view.camera = {.eye = {0.1f, 0.2f, 6}, .target = {0, 0.1f, 0}, .fovY = 0.8f};
+    const glm::uvec2 size(view.width, view.height);
+    EXPECT_EQ(limn::comparedPixels(limn::Motion::Lights, trace, view).size(), 40U * 24);
+
+    const auto fixed = limn::comparedPixels(limn::Motion::Objects, trace, view);
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t pixel = 0; pixel < 40 * 24; ++pixel) {
+        bool hidden = false;
+        for (int k = 0; k < limn::kMotionFrames; ++k) {
+            const glm::vec3 place = limn::motionFrame(limn::Motion::Objects, scene, view.camera, k)
+                                        .scene.instances[1]
+                                        .toWorld[3];
+            hidden |= insideOf(view.camera, size, pixel, place.z, [&](glm::vec3 p) {
+                          return std::abs(p.x - place.x) < 0.5f && std::abs(p.y - place.y) < 1;
+                      }) > 0;
+        }
+        if (!hidden)
+            expected.push_back(pixel);
+    }
+    EXPECT_EQ(fixed, expected);
+    EXPECT_LT(fixed.size(), 40U * 24 - 30) << "the pane is somewhere";
+
+    // Without the pane, the camera's turn alone decides.
+    limn::Scene bare = scene;
+    bare.instances.pop_back();
+    const limn::TraceScene wall(bare);
+    const auto seen = limn::comparedPixels(limn::Motion::Camera, wall, view);
+    expected.clear();
+    for (std::uint32_t pixel = 0; pixel < 40 * 24; ++pixel) {
+        int shown = 0;
+        for (int k = 1; k < limn::kMotionFrames; ++k) {
+            const limn::Camera camera =
+                limn::motionFrame(limn::Motion::Camera, bare, view.camera, k).camera;
+            const glm::mat4 toClip =
+                limn::projectionMatrix(camera, 40.f / 24, 0.1f, 100) * limn::viewMatrix(camera);
+            shown += insideOf(view.camera, size, pixel, 0, [&](glm::vec3 p) {
+                const glm::vec4 clip = toClip * glm::vec4(p, 1);
+                return std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w;
+            });
+        }
+        if (shown == 5 * (limn::kMotionFrames - 1))
+            expected.push_back(pixel);
+    }
+    EXPECT_EQ(seen, expected);
+    EXPECT_LT(seen.size(), 40U * 24 - 24) << "a column is lost";
+    EXPECT_GT(seen.size(), 40U * 24 / 2);
+    // What the pane hides from one of the cameras is not compared.
+    EXPECT_LT(limn::comparedPixels(limn::Motion::Camera, trace, view).size(), seen.size());
 }
 
 TEST(MovingLights, StandOverEqualAreasOfTheStaticSurfaces) {
@@ -217,6 +311,61 @@ public:
 private:
     std::vector<double> m_ms;
 };
+
+/// Light for the eye of a camera, or for where the first dynamic object is: the same everywhere.
+class FollowingLight : public ListedLight {
+public:
+    explicit FollowingLight(bool ofView) : ListedLight({1}), m_ofView(ofView) {}
+
+    limn::LightingReport update(const limn::LightingInput& input,
+                                const limn::Progress& progress) override {
+        const auto& objects = input.trace->scene().instances;
+        const auto object = std::ranges::find_if(objects, &limn::Instance::dynamic);
+        m_value = 3 + (m_ofView ? input.view->camera.eye.z : object->toWorld[3].x);
+        limn::LightingReport report = ListedLight::update(input, progress);
+        report.converged = true;
+        return report;
+    }
+    limn::IndirectField readField() const override {
+        limn::IndirectField field = ListedLight::readField();
+        field.grid[0] = glm::vec4(glm::vec3(m_value), 0) / std::sqrt(std::numbers::pi_v<float> / 4);
+        return field;
+    }
+    bool isOfView() const override { return m_ofView; }
+
+private:
+    bool m_ofView;
+    float m_value = 0;
+};
+
+TEST(LiveLight, FlickersWithWhatMoves) {
+    const limn::Scene scene = lampRoom(true);
+    const limn::TraceScene trace(scene);
+    const limn::LightmapLayout layout = limn::layoutWithoutLightmap(scene);
+    limn::FieldRenderOptions view{.view = limn::View::Irradiance, .width = 12, .height = 8};
+    view.camera = {.eye = {0.5f, 2, 2}, .target = {3, 1, 2}};
+    const auto flicker = [&](limn::Motion motion, bool ofView) {
+        limn::ReferenceOptions size{.width = 12, .height = 8};
+        size.camera = view.camera;
+        limn::MotionTruth truth{motion, limn::comparedPixels(motion, trace, size), {}, {}};
+        EXPECT_GT(truth.pixels.size(), 12U);
+        const limn::ImageF constant{std::uint32_t(truth.pixels.size()), 1,
+                                    std::vector<glm::vec3>(truth.pixels.size(), glm::vec3(5))};
+        truth.first = truth.second = {constant};
+        return limn::LiveLight(std::make_unique<FollowingLight>(ofView), scene, trace, layout, view)
+            .flicker(truth);
+    };
+    const double diagonal = double(glm::length(scene.bounds.size()));
+    // The camera looks along x, nearly: to its right is z.
+    EXPECT_NEAR(*flicker(limn::Motion::Camera, true), 0.002 * diagonal / 5, 1e-4 * diagonal / 5);
+    EXPECT_EQ(*flicker(limn::Motion::Camera, false), 0) << "no view changes this light";
+    double squares = 0;
+    for (int k = 1; k < limn::kMotionFrames; ++k)
+        squares += std::pow(std::sin(0.1 * k) - std::sin(0.1 * (k - 1)), 2);
+    EXPECT_NEAR(*flicker(limn::Motion::Objects, false),
+                0.05 * diagonal * std::sqrt(squares / (limn::kMotionFrames - 1)) / 5, 1e-5);
+    EXPECT_EQ(*flicker(limn::Motion::Objects, true), 0) << "the camera stands";
+}
 
 TEST(TimedUpdates, MediansCountAndTheSceneIsAsBefore) {
     limn::Scene scene = lampRoom();
@@ -387,6 +536,8 @@ TEST_F(CommandLine, BenchTechniquesMeasuresWhatIsAskedAndWritesAPage) {
         EXPECT_TRUE(r["flip"] > 0 && r["flip"] < 1) << r;
         EXPECT_GE(r["leak"].get<double>(), 0) << r;
         EXPECT_TRUE(r["flicker"].is_number()) << r;
+        EXPECT_EQ(r["camera_flicker"], 0) << "neither light is of a view";
+        EXPECT_TRUE(r["object_flicker"].is_null()) << "nothing is dynamic";
     }
     EXPECT_EQ(result["rows"][0]["lag"], 1) << "a constant follows at once";
     EXPECT_GT(result["rows"][5]["lag"], result["rows"][1]["lag"])
