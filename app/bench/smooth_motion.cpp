@@ -29,16 +29,7 @@ struct Watcher {
     PixelRays rays;
 
     /// Whether its picture shows a point that is clear of its surface.
-    bool sees(glm::vec3 p) const {
-        const glm::vec3 way = p - rays.eye;
-        const float depth = glm::dot(way, rays.centre) / glm::dot(rays.centre, rays.centre);
-        if (!(depth > 0))
-            return false;
-        const float rim = 1.0001f * depth; // the corners of the outermost pixels, for rounding
-        const float x = glm::dot(way, rays.right) / glm::dot(rays.right, rays.right),
-                    y = glm::dot(way, rays.up) / glm::dot(rays.up, rays.up);
-        return std::abs(x) <= rim && std::abs(y) <= rim && !trace->blocked(rays.eye, p);
-    }
+    bool sees(glm::vec3 p) const { return rays.pixelOf(p) && !trace->blocked(rays.eye, p); }
 };
 
 /// Sum over frames, pixels and channels of the product of two series' changes from frame to frame.

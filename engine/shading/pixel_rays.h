@@ -3,9 +3,14 @@
 
 #include "engine/trace/trace_scene.h"
 
+#include <cmath>
 #include <cstdint>
+#include <optional>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 
 namespace limn {
 
@@ -27,6 +32,19 @@ struct PixelRays {
     Ray through(glm::vec2 pixel) const {
         const glm::vec2 ndc = 2.f * pixel / size - 1.f;
         return {eye, glm::normalize(centre + ndc.x * right - ndc.y * up)};
+    }
+
+    /// The point of the picture that shows a place, if nothing hides it; none beside the picture,
+    /// to whose edge a ten-thousandth more belongs because of rounding.
+    std::optional<glm::vec2> pixelOf(glm::vec3 place) const {
+        const glm::vec3 way = place - eye;
+        const float depth = glm::dot(way, centre) / glm::dot(centre, centre);
+        const glm::vec2 ndc(glm::dot(way, right) / (depth * glm::dot(right, right)),
+                            -glm::dot(way, up) / (depth * glm::dot(up, up)));
+        constexpr float kEdge = 1.0001f;
+        if (!(depth > 0 && std::abs(ndc.x) <= kEdge && std::abs(ndc.y) <= kEdge))
+            return {};
+        return glm::clamp((ndc + 1.f) / 2.f, 0.f, 1.f) * size;
     }
 };
 

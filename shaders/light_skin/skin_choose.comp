@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses virtual lights by their importance and by their flux, as chooseLights() of
+// Chooses virtual lights by their importance and by their flux, as drawLights() of
 // engine/techniques/light_skin/importance.cpp, or copies a batch of all of them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -12,6 +12,7 @@ layout(push_constant) uniform Push { GpuSkinStep step; };
 layout(std430, binding = SKIN_STEP_TEXELS) readonly buffer Texels { GpuVirtualLight texels[]; };
 layout(std430, binding = SKIN_STEP_IMPORTANCE) readonly buffer Importance { float importance[]; };
 layout(std430, binding = SKIN_STEP_SUMS) readonly buffer Sums { float sums[]; };
+layout(std430, binding = SKIN_STEP_DRAWS) buffer Draws { GpuLightDraw draws[]; };
 layout(std430, binding = SKIN_STEP_CHOSEN) writeonly buffer Chosen { GpuChosenLight chosen[]; };
 
 /// Index in [first, first + count) of the first sum that exceeds `place`, or, where rounding leaves none, of the first
@@ -35,26 +36,24 @@ GpuChosenLight weighted(uint i, float weight) {
     return GpuChosenLight(light.position, light.area, normal, light.area > 0.0 ? weight : 0.0, light.flux * weight, 0.0);
 }
 
-void main() {
-    const uint k = groupIndex() * kLanes + gl_LocalInvocationID.x;
-    if (k >= step.count)
-        return;
-    if (step.all == 1u) {
-        chosen[k] = weighted(step.first + k, 1.0);
-        return;
-    }
+/// Makes draw k, if it is of the part that is made again.
+void drawAgain(uint k) {
     const uint all = step.columns * step.rows, ofColumns = 2u * all;
     const vec2 total = vec2(sums[ofColumns + step.columns - 1u], sums[ofColumns + 2u * step.columns - 1u]);
     uint byFlux = step.byFlux; // of the draws
     if (!(total.x > 0.0) && byFlux > 0u)
         byFlux = step.count; // nothing is important
     if (!(total.y > 0.0) || (byFlux == 0u && !(total.x > 0.0))) {
-        chosen[k] = GpuChosenLight(vec3(0), 0.0, vec3(0), 0.0, vec3(0), 0.0);
+        draws[k] = GpuLightDraw(0u, 0.0);
         return;
     }
-    // Each kind of draw has a sequence of its own.
-    const bool flux = k >= step.count - byFlux;
-    const vec2 u = haltonPoint(flux ? k - (step.count - byFlux) : k);
+    // Each kind of draw has a sequence of its own, and its own part of it is made again.
+    const uint important = step.count - byFlux;
+    const bool flux = k >= important;
+    const uint number = flux ? k - important : k, count = flux ? byFlux : important;
+    if (number < count * step.block / step.blocks || number >= count * (step.block + 1u) / step.blocks)
+        return;
+    const vec2 u = haltonPoint(number);
     const uint kind = flux ? 1u : 0u;
     const uint first = ofColumns + kind * step.columns;
     const uint column = firstAbove(first, step.columns, u.x * total[kind]) - first;
@@ -64,5 +63,17 @@ void main() {
     float probability = share * dot(texels[i].flux, vec3(0.2126, 0.7152, 0.0722)) / total.y;
     if (share < 1.0)
         probability += (1.0 - share) * importance[i] / total.x;
-    chosen[k] = weighted(i, 1.0 / (float(step.count) * probability));
+    draws[k] = GpuLightDraw(i, 1.0 / (float(step.count) * probability));
+}
+
+void main() {
+    const uint k = groupIndex() * kLanes + gl_LocalInvocationID.x;
+    if (k >= step.count)
+        return;
+    if (step.all == 1u) {
+        chosen[k] = weighted(step.first + k, 1.0);
+        return;
+    }
+    drawAgain(k);
+    chosen[k] = weighted(draws[k].texel, draws[k].weight);
 }

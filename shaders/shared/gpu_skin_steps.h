@@ -24,11 +24,13 @@ using glm::uvec2;
 #define SKIN_STEP_CHOSEN 7u   // GpuChosenLight
 #define SKIN_STEP_CACHES 8u   // GpuGatheringCache
 #define SKIN_STEP_RECEIVED 9u // SKIN_SUMS floats of each cache, as limn::CacheSums
-#define SKIN_STEP_BINDINGS 10u
+#define SKIN_STEP_DRAWS 10u   // GpuLightDraw of each draw
+#define SKIN_STEP_BINDINGS 11u
 
 #define SKIN_SUMS 20
-#define SKIN_MAP_LANES 8  // of a group along each side of a map
-#define SKIN_BATCH 65536u // virtual lights that are gathered at once
+#define SKIN_MAP_LANES 8      // of a group along each side of a map
+#define SKIN_SEEN_SHARE 0.125 // as kSeenShare
+#define SKIN_BATCH 65536u     // virtual lights that are gathered at once
 
 // clang-format off
 /// A disc; area 0: the texel is dark.
@@ -39,7 +41,12 @@ struct GpuVirtualLight {
 
 struct GpuViewSample {
     vec3 position; float found; // m; 1, or 0: the view shows no surface there
-    vec3 normal; float pad;     // unit, of the side that is seen
+    vec3 normal; uint pixel;    // unit, of the side that is seen; of a cache: x + 65536 y
+};
+
+/// The texel that a draw chose.
+struct GpuLightDraw {
+    uint texel; float weight; // 1 / (N P); 0: there was nothing to draw
 };
 
 struct GpuChosenLight {
@@ -63,20 +70,22 @@ struct GpuSkinMap {
 struct GpuSkinView {
     mat4 fromClip;
     uvec2 size; uint samples; uint pad0;
-    vec3 eye; float pad1; // m
+    vec3 eye; float near; // m; distance within which a cache's own surface lies [m]
 };
 
 struct GpuSkinStep {
     uint columns, rows, samples, count; // of the map; of the view; lights to choose, or in the batch
     uint first, byFlux, all, add;       // of the batch; of the draws; every texel counts; the sums go on
     vec3 eye; float nearest;            // m; m, below which lights beside a sample count alike
-    uint caches; float epsilon; uint pad0, pad1; // m^-2; weight of an area that does not light a cache
+    uint caches; float epsilon; // m^-2; weight of an area that does not light a cache
+    uint block, blocks;         // of the draws that are made again, as DrawBlock
 };
 // clang-format on
 
 #ifdef __cplusplus
 static_assert(sizeof(GpuVirtualLight) == 32);
 static_assert(sizeof(GpuViewSample) == 32);
+static_assert(sizeof(GpuLightDraw) == 8);
 static_assert(sizeof(GpuChosenLight) == 48);
 static_assert(sizeof(GpuGatheringCache) == 32);
 static_assert(sizeof(GpuSkinMap) == 112);

@@ -99,40 +99,79 @@ static glm::dvec2 haltonPoint(std::uint32_t k, glm::dvec2 shift) {
     return p - glm::floor(p);
 }
 
+/// Draws of one kind: `count` from number `first` on.
+struct DrawsOfKind {
+    const RasterSums& sums;
+    std::uint32_t first, count;
+
+    /// Calls drawn(number, light) for those of a part.
+    template <class Drawn>
+    void each(DrawBlock part, glm::dvec2 shift, const Drawn& drawn) const {
+        const auto upTo = [&](std::uint32_t block) {
+            return std::uint32_t(std::uint64_t(count) * block / part.blocks);
+        };
+        for (std::uint32_t k = upTo(part.block); k < upTo(part.block + 1); ++k)
+            drawn(first + k, sums.find(haltonPoint(k, shift)));
+    }
+};
+
+void drawLights(const VirtualLights& lights, std::span<const float> importance,
+                const ChoiceOptions& options, DrawBlock part, LightDraws& draws) {
+    const std::uint32_t count = options.count;
+    draws.cell.resize(count, 0);
+    draws.weight.resize(count, 0);
+    const std::vector<float> flux = fluxLuminances(lights);
+    const RasterSums important(lights, importance), bright(lights, flux);
+    auto byFlux = std::uint32_t(std::lround(double(options.defence) * count));
+    if (!(important.total() > 0) && byFlux > 0)
+        byFlux = count;
+    if (!(bright.total() > 0) || (byFlux == 0 && !(important.total() > 0))) {
+        draws.weight.assign(count, 0);
+        return;
+    }
+    const double share = double(byFlux) / count; // of the draws as made, so that weights are exact
+    const auto drawn = [&](std::uint32_t k, std::uint32_t light) {
+        double probability = share * double(flux[light]) / bright.total();
+        if (share < 1)
+            probability += (1 - share) * double(importance[light]) / important.total();
+        draws.cell[k] = lights.cell[light];
+        draws.weight[k] = 1 / (count * probability);
+    };
+    // Each kind of draw has a sequence of its own: of one sequence, every tenth point has the same
+    // first digit.
+    DrawsOfKind{important, 0, count - byFlux}.each(part, options.shift, drawn);
+    DrawsOfKind{bright, count - byFlux, byFlux}.each(part, options.shift, drawn);
+}
+
+ChosenLights drawnLights(const VirtualLights& lights, const LightDraws& draws) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> order; // cell, draw
+    for (std::uint32_t k = 0; k < draws.cell.size(); ++k)
+        if (draws.weight[k] > 0)
+            order.emplace_back(draws.cell[k], k);
+    std::ranges::sort(order);
+    ChosenLights chosen;
+    auto next = lights.cell.begin();
+    for (std::size_t i = 0; i < order.size();) {
+        const std::uint32_t cell = order[i].first;
+        double weight = 0;
+        for (; i < order.size() && order[i].first == cell; ++i)
+            weight += draws.weight[order[i].second];
+        next = std::lower_bound(next, lights.cell.end(), cell);
+        if (next == lights.cell.end() || *next != cell)
+            continue;
+        chosen.light.push_back(std::uint32_t(next - lights.cell.begin()));
+        chosen.weight.push_back(float(weight));
+    }
+    return chosen;
+}
+
 ChosenLights chooseLights(const VirtualLights& lights, std::span<const float> importance,
                           const ChoiceOptions& options) {
     if (lights.size() <= options.count)
         return allLights(lights);
-    const std::vector<float> flux = fluxLuminances(lights);
-    const RasterSums important(lights, importance), bright(lights, flux);
-    const std::uint32_t count = options.count;
-    auto byFlux = std::uint32_t(std::lround(double(options.defence) * count));
-    if (!(important.total() > 0))
-        byFlux = options.defence > 0 ? count : 0;
-    if (!(bright.total() > 0) || (byFlux == 0 && !(important.total() > 0)))
-        return {};
-    // Each kind of draw has a sequence of its own: of one sequence, every tenth point has the same
-    // first digit.
-    std::vector<std::uint32_t> drawn;
-    for (std::uint32_t k = 0; k < count - byFlux; ++k)
-        drawn.push_back(important.find(haltonPoint(k, options.shift)));
-    for (std::uint32_t k = 0; k < byFlux; ++k)
-        drawn.push_back(bright.find(haltonPoint(k, options.shift)));
-    std::ranges::sort(drawn);
-    const double share = double(byFlux) / count; // of the draws as made, so that weights are exact
-    ChosenLights chosen;
-    for (std::size_t i = 0; i < drawn.size();) {
-        const std::uint32_t light = drawn[i];
-        std::size_t times = 0;
-        for (; i < drawn.size() && drawn[i] == light; ++i)
-            ++times;
-        double probability = share * double(flux[light]) / bright.total();
-        if (share < 1)
-            probability += (1 - share) * double(importance[light]) / important.total();
-        chosen.light.push_back(light);
-        chosen.weight.push_back(float(double(times) / (count * probability)));
-    }
-    return chosen;
+    LightDraws draws;
+    drawLights(lights, importance, options, {}, draws);
+    return drawnLights(lights, draws);
 }
 
 } // namespace limn

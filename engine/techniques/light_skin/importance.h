@@ -56,6 +56,27 @@ struct ChoiceOptions {
     glm::dvec2 shift{0};     ///< of the points, modulo 1
 };
 
+/// Cells of the raster that draws chose, by number of the draw. They stand for the lights that are
+/// in them, whichever these are.
+struct LightDraws {
+    std::vector<std::uint32_t> cell;
+    std::vector<double> weight; ///< 1 / (N P); 0: there was nothing to draw
+};
+
+/// Number `block` of `blocks` parts of the draws, which differ by one draw of each kind at most.
+/// Each has consecutive points of the sequences, which spread evenly.
+struct DrawBlock {
+    std::uint32_t block = 0, blocks = 1;
+};
+
+/// Makes a part of the draws of chooseLights() again; the others stay as they are. Precondition:
+/// there are options.count draws, or the part is all of them.
+void drawLights(const VirtualLights& lights, std::span<const float> importance,
+                const ChoiceOptions& options, DrawBlock part, LightDraws& draws);
+
+/// The lights in the cells that were drawn.
+ChosenLights drawnLights(const VirtualLights& lights, const LightDraws& draws);
+
 /// Draws N lights, one part by importance, the other by flux; both by points of the Halton sequence
 /// in bases 2 and 3. All of them, with weight 1, where there are no more than N. Where nothing is
 /// important all are drawn by flux; none where `defence` is 0.

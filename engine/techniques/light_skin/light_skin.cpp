@@ -27,6 +27,8 @@ public:
         SkinCost cost;
         double fieldMs = 0;
         const auto trace = [&]() -> const TraceScene& { return *input.trace; };
+        if (m_state.isRenewing())
+            m_inputs.reset(); // the same inputs renew more
         LightingReport report = relightUnlessSame(
             skinInputsOf(input.scene, input.view), m_inputs, [&](const SkinInputs& now) {
                 if (!m_state.follow(input.scene, now, trace, progress, cost))
@@ -34,6 +36,10 @@ public:
                 fieldMs = writeField(now);
                 return true;
             });
+        if (m_state.isRenewing()) {
+            report.converged = false;
+            report.bounces = 0; // until the bounce is complete
+        }
         describeSkin(m_state.objects(), m_state.bytes(), cost, report);
         report.steps.push_back(
             {"field", "Field", "Flux of the proxy lights in the lights' colours", fieldMs});

@@ -10,7 +10,7 @@
 namespace limn {
 
 /// Settings of LightSkin, in the order of SkinSettings.
-inline constexpr std::array<TechniqueSetting, 10> kSkinSettings = {
+inline constexpr std::array<TechniqueSetting, 12> kSkinSettings = {
     {{.setting = {.key = "light-skin.vals",
                   .label = "Chosen virtual area lights",
                   .tooltip = "Texels of each light's reflective shadow map that light the caches, "
@@ -91,7 +91,24 @@ inline constexpr std::array<TechniqueSetting, 10> kSkinSettings = {
                   .invalidates = Invalidates::Light},
       .range = {0, 1},
       .usual = 1,
-      .whole = true}}};
+      .whole = true},
+     {.setting = {.key = "light-skin.visible_caches",
+                  .label = "Samples at visible caches",
+                  .tooltip = "On: the importance of texels is that for all caches which the view "
+                             "shows, in place of random pixels. They stay where they are when the "
+                             "view moves, and far surfaces count as much as near ones",
+                  .invalidates = Invalidates::Light},
+      .range = {0, 1},
+      .usual = 0,
+      .whole = true},
+     {.setting = {.key = "light-skin.renew",
+                  .label = "Renewed share",
+                  .tooltip = "Share of the chosen virtual area lights that is chosen again in each "
+                             "update. With less than 1 light flickers less while the view moves, "
+                             "and is complete only after as many updates as shares",
+                  .invalidates = Invalidates::Light},
+      .range = {0.02f, 1},
+      .usual = 1}}};
 
 /// The settings' values.
 struct SkinSettings {
@@ -100,7 +117,8 @@ struct SkinSettings {
     float spacing = 0; ///< share of the diagonal
     float angle = 0;   ///< [rad]
     float defence = 0;
-    bool vertexLists = false, glossy = false, shade = false;
+    bool vertexLists = false, glossy = false, shade = false, visibleCaches = false;
+    float renew = 1; ///< share of the draws, (0, 1]
     bool operator==(const SkinSettings&) const = default;
 };
 
@@ -115,7 +133,9 @@ inline SkinSettings skinSettingsOf(const TechniqueChoice& choice) {
             .defence = float(number(6)),
             .vertexLists = number(7) > 0,
             .glossy = number(8) > 0,
-            .shade = number(9) > 0};
+            .shade = number(9) > 0,
+            .visibleCaches = number(10) > 0,
+            .renew = float(number(11))};
 }
 
 } // namespace limn

@@ -13,10 +13,14 @@ void SkinState::followSamples(const Scene& scene, const SkinInputs& now, const T
                               SkinCost& cost) {
     Stopwatch clock;
     const SkinSettings& s = now.settings;
-    if (m_sampled.follow(
-            {m_objects.surfaces(), s.all ? std::nullopt : now.view, s.samples, s.all})) {
+    if (m_sampled.follow({m_objects.surfaces(), s.all ? std::nullopt : now.view, s.samples, s.all,
+                          s.visibleCaches})) {
         m_samples = {};
-        if (!s.all && now.view) {
+        if (!s.all && now.view && s.visibleCaches) {
+            const CachesInView caches = cachesInView(*m_objects.caches(), *now.view);
+            m_samples = seenCaches(trace(), scene, caches, *now.view);
+            cost.rays += caches.size();
+        } else if (!s.all && now.view) {
             m_samples = samplesOfView(trace(), scene, *now.view, s.samples);
             cost.rays += s.samples;
         } else if (!s.all) {
@@ -27,9 +31,10 @@ void SkinState::followSamples(const Scene& scene, const SkinInputs& now, const T
     cost.importanceMs += clock.lap();
 }
 
-void SkinState::choose(const SkinInputs& now, SkinLight& light, SkinCost& cost) {
+void SkinState::choose(const SkinInputs& now, const RsmSource& source, SkinCost& cost) {
     Stopwatch clock;
     const SkinSettings& s = now.settings;
+    SkinLight& light = *std::ranges::find(m_lights, source.shape, &SkinLight::shape);
     const bool all = s.all || light.lights.size() <= s.vals;
     if (!all && light.importanceOf != m_sampled.version) {
         light.importance =
@@ -37,12 +42,25 @@ void SkinState::choose(const SkinInputs& now, SkinLight& light, SkinCost& cost) 
         light.importanceOf = m_sampled.version;
     }
     cost.importanceMs += clock.lap();
-    // The choice of all lights does not change with the view.
-    if (light.chosenOf == m_choice.version)
-        return;
-    ChosenLights chosen =
-        all ? allLights(light.lights)
-            : chooseLights(light.lights, light.importance, {.count = s.vals, .defence = s.defence});
+    const bool changed = light.chosenOf != m_choice.version;
+    ChosenLights chosen;
+    if (all) {
+        m_draws.erase(source.index);
+        if (!changed) // the choice of all lights does not change with the view
+            return;
+        chosen = allLights(light.lights);
+    } else {
+        KeptDraws& kept = m_draws[source.index];
+        if (changed || kept.shape != light.shape)
+            kept.renewal.begin({light.shape.kind, light.lights.columns, light.lights.rows,
+                                m_sources, s, now.view.has_value()});
+        else if (!kept.renewal.isDue())
+            return;
+        kept.shape = light.shape;
+        drawLights(light.lights, light.importance, {.count = s.vals, .defence = s.defence},
+                   kept.renewal.next(), kept.draws);
+        chosen = drawnLights(light.lights, kept.draws);
+    }
     if (light.chosenOf == 0 || chosen.light != light.chosen.light ||
         chosen.weight != light.chosen.weight) {
         light.chosen = std::move(chosen);
@@ -50,6 +68,22 @@ void SkinState::choose(const SkinInputs& now, SkinLight& light, SkinCost& cost) 
     }
     light.chosenOf = m_choice.version;
     cost.choiceMs += clock.lap();
+}
+
+/// Chooses for all lights that shine, once for those of the same shape.
+void SkinState::chooseAll(const SkinInputs& now, SkinCost& cost) {
+    m_sources = std::uint32_t(now.sources.size());
+    std::erase_if(m_draws, [&](const auto& kept) {
+        return std::ranges::find(now.sources, kept.first, &RsmSource::index) == now.sources.end();
+    });
+    for (const RsmSource& source : now.sources)
+        if (std::ranges::find(now.sources, source.shape, &RsmSource::shape)->index == source.index)
+            choose(now, source, cost);
+}
+
+bool SkinState::isRenewing() const {
+    return std::ranges::any_of(m_draws,
+                               [](const auto& kept) { return kept.second.renewal.isDue(); });
 }
 
 bool SkinState::gather(const SkinInputs& now, const Progress& progress, SkinCost& cost) {
@@ -102,8 +136,7 @@ bool SkinState::follow(const Scene& scene, const SkinInputs& now, const TraceOf&
     if (!castLights(scene, now, trace, progress, cost))
         return false;
     followSamples(scene, now, trace, cost);
-    for (const RsmSource& source : now.sources)
-        choose(now, *std::ranges::find(m_lights, source.shape, &SkinLight::shape), cost);
+    chooseAll(now, cost);
     return gather(now, progress, cost) &&
            m_objects.place(now, gathered(now.sources), m_gathers, progress, cost);
 }
@@ -132,6 +165,8 @@ std::uint64_t SkinState::bytes() const {
     std::uint64_t bytes = m_objects.bytes() + m_samples.size() * 2 * sizeof(glm::vec3);
     for (const SkinLight& light : m_lights)
         bytes += light.bytes();
+    for (const auto& [index, kept] : m_draws)
+        bytes += kept.draws.cell.size() * (sizeof(std::uint32_t) + sizeof(double));
     return bytes;
 }
 

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "engine/core/progress.h"
+#include "engine/techniques/light_skin/draw_renewal.h"
 #include "engine/techniques/light_skin/importance.h"
 #include "engine/techniques/light_skin/skin_objects.h"
 #include "engine/techniques/light_skin/virtual_lights.h"
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,6 +42,9 @@ public:
     bool follow(const Scene& scene, const SkinInputs& now, const TraceOf& trace,
                 const Progress& progress, SkinCost& cost);
 
+    /// Whether further updates with the same inputs would renew more of the draws.
+    bool isRenewing() const;
+
     const SkinObjects& objects() const { return m_objects; }
     const ViewSamples& samples() const { return m_samples; }
     /// The kept light with that shape; null if there is none.
@@ -56,7 +61,8 @@ private:
                        SkinCost& cost);
     bool castLights(const Scene& scene, const SkinInputs& now, const TraceOf& trace,
                     const Progress& progress, SkinCost& cost);
-    void choose(const SkinInputs& now, SkinLight& light, SkinCost& cost);
+    void choose(const SkinInputs& now, const RsmSource& source, SkinCost& cost);
+    void chooseAll(const SkinInputs& now, SkinCost& cost);
     bool gather(const SkinInputs& now, const Progress& progress, SkinCost& cost);
 
     /// What the kept results were made of.
@@ -64,7 +70,7 @@ private:
         std::uint64_t surfaces = 0;
         std::optional<Viewpoint> view;
         std::uint32_t count = 0;
-        bool all = false;
+        bool all = false, visibleCaches = false;
         bool operator==(const SampleKey&) const = default;
     };
     struct ChoiceKey {
@@ -75,9 +81,18 @@ private:
         bool operator==(const ChoiceKey&) const = default;
     };
 
+    /// The draws of a light, which last when it moves or an object does.
+    struct KeptDraws {
+        Light shape; ///< of the light for which they were made last
+        LightDraws draws;
+        DrawRenewal renewal;
+    };
+
     SkinObjects m_objects;
     ViewSamples m_samples;
     std::vector<SkinLight> m_lights;
+    std::map<std::uint32_t, KeptDraws> m_draws; ///< by index into Scene::lights
+    std::uint32_t m_sources = 0;                ///< number of lights that shine
     Versioned<SampleKey> m_sampled;
     Versioned<ChoiceKey> m_choice;
     std::uint64_t m_gathers = 0; ///< of lights, since the beginning

@@ -28,12 +28,11 @@ VirtualLights castVirtualLights(const TraceScene& trace, const Scene& scene, con
                                 std::uint32_t mapSize, const Progress& progress) {
     const ReflectiveShadowMap map = castRsm(trace, scene, light, mapSize, progress);
     VirtualLights lights{.rays = map.rays};
-    std::uint32_t views = 0;
-    for (const RsmTexel& t : map.texels) {
-        views = std::max(views, t.view + 1);
-        lights.rows = std::max({lights.rows, t.place.x + 1, t.place.y + 1});
-    }
-    lights.columns = views * lights.rows;
+    // The whole raster, whatever the light sees: cells then keep their numbers when it moves.
+    const std::vector<RsmView> views =
+        rsmViews(light, scene.bounds, mapSize, [](glm::vec3 p, glm::vec3) { return p; });
+    lights.rows = views.empty() ? 0 : views[0].size;
+    lights.columns = std::uint32_t(views.size()) * lights.rows;
     const auto cellOf = [&](const RsmTexel& t) {
         return (t.view * lights.rows + t.place.x) * lights.rows + t.place.y;
     };

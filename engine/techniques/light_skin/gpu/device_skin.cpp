@@ -24,12 +24,18 @@ LightingReport DeviceSkin::update(const LightingInput& input, const Progress& pr
     Stopwatch whole;
     Cost cost;
     const std::uint64_t before = m_lights->dispatches();
+    if (isRenewing())
+        m_inputs.reset(); // the same inputs renew more
     LightingReport report = relightUnlessSame(
         skinInputsOf(input.scene, input.view), m_inputs,
         [&](const SkinInputs& now) { return relight(input.scene, now, progress, cost); });
     cost.dispatches = m_lights->dispatches() - before;
     if (report.bounces > 0)
         m_scene = input.scene;
+    if (isRenewing()) {
+        report.converged = false;
+        report.bounces = 0; // until the bounce is complete
+    }
     if (m_pass)
         m_viewport.setIndirect(m_pass);
     describe(cost, report);
@@ -65,8 +71,11 @@ void DeviceSkin::followSamples(const Scene& scene, const SkinInputs& now, Cost& 
     Stopwatch clock;
     const SkinSettings& s = now.settings;
     if (m_samples.follow({m_objects.surfaces(), s.all ? std::nullopt : now.view, s.samples, s.vals,
-                          s.defence, s.all})) {
-        if (!s.all && now.view) {
+                          s.defence, s.all, s.visibleCaches})) {
+        if (!s.all && now.view && s.visibleCaches) {
+            m_lights->findSeenCaches(*m_objects.caches(), *now.view, scene.bounds);
+            ++cost.views;
+        } else if (!s.all && now.view) {
             m_lights->findSamples(*now.view, scene.bounds, s.samples);
             ++cost.views;
         } else if (!s.all) {
@@ -74,6 +83,28 @@ void DeviceSkin::followSamples(const Scene& scene, const SkinInputs& now, Cost& 
         }
     }
     cost.importanceMs += clock.lap();
+}
+
+/// The draws of a light that are to be made now; none where they are not out of date.
+std::optional<DrawBlock> DeviceSkin::drawsOf(const SkinInputs& now, const RsmSource& source,
+                                             const Kept& light) {
+    KeptDraws& kept = m_draws[source.index];
+    const SkinSettings& s = now.settings;
+    const bool changed = light.choice != m_samples.version;
+    if (s.all || light.lights.count() <= s.vals) {
+        kept.renewal = {};
+        return changed ? std::optional(DrawBlock{}) : std::nullopt;
+    }
+    if (changed || kept.shape != light.shape)
+        kept.renewal.begin({light.shape.kind, light.lights.columns, light.lights.rows,
+                            std::uint32_t(now.sources.size()), s, now.view.has_value()});
+    kept.shape = light.shape;
+    return kept.renewal.isDue() ? std::optional(kept.renewal.next()) : std::nullopt;
+}
+
+bool DeviceSkin::isRenewing() const {
+    return std::ranges::any_of(m_draws,
+                               [](const auto& kept) { return kept.second.renewal.isDue(); });
 }
 
 /// Gathers the lights whose sums are out of date. False if cancelled.
@@ -84,20 +115,31 @@ bool DeviceSkin::gather(const SkinInputs& now, const Progress& progress, Cost& c
         m_lights->setCaches(*m_objects.caches(), m_objects.exponents());
         m_cachesOf = m_objects.gathering();
     }
+    std::erase_if(m_draws, [&](const auto& draws) {
+        return std::ranges::find(now.sources, draws.first, &RsmSource::index) == now.sources.end();
+    });
     for (const RsmSource& source : now.sources) {
+        if (std::ranges::find(now.sources, source.shape, &RsmSource::shape)->index != source.index)
+            continue; // lights of the same shape have the same sums
         Kept& kept = *std::ranges::find(m_kept, source.shape, &Kept::shape);
-        if (kept.gathering == m_objects.gathering() && kept.choice == m_samples.version)
+        const std::optional<DrawBlock> part = drawsOf(now, source, kept);
+        if (!part && kept.gathering == m_objects.gathering())
             continue;
-        kept.gathering = 0;
+        kept.gathering = kept.choice = 0;
+        // Draws that are not out of date come out the same once more.
         if (!m_lights->gather(kept.lights,
                               {.count = s.vals,
                                .defence = s.defence,
                                .all = s.all,
                                .nearest = nearestSample(m_objects.caches()->diagonal),
                                .diagonal = m_objects.caches()->diagonal,
-                               .eye = now.eye()},
-                              kept.sums, progress))
+                               .eye = now.eye(),
+                               .part = part.value_or(DrawBlock{}),
+                               .draws = &m_draws[source.index].draws},
+                              kept.sums, progress)) {
+            m_draws.erase(source.index);
             return false;
+        }
         kept.gathering = m_objects.gathering();
         kept.choice = m_samples.version;
         ++m_gathers;

@@ -4,10 +4,12 @@
 #include "engine/lighting/lighting.h"
 #include "engine/lighting/precomputed.h"
 #include "engine/render/viewport.h"
+#include "engine/techniques/light_skin/draw_renewal.h"
 #include "engine/techniques/light_skin/gpu/gpu_skin_lights.h"
 #include "engine/techniques/light_skin/gpu/skin_pass.h"
 #include "engine/techniques/light_skin/skin_objects.h"
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -47,8 +49,14 @@ private:
         std::optional<Viewpoint> view;
         std::uint32_t count = 0, vals = 0;
         float defence = 0;
-        bool all = false;
+        bool all = false, visibleCaches = false;
         bool operator==(const SampleKey&) const = default;
+    };
+    /// The draws of a light, which last when it moves or an object does.
+    struct KeptDraws {
+        Light shape; ///< of the light for which they were made last
+        gpu::Buffer draws;
+        DrawRenewal renewal;
     };
     struct Cost : SkinCost {
         std::uint64_t views = 0, dispatches = 0, bytesUploaded = 0;
@@ -61,6 +69,9 @@ private:
     bool castMaps(const Scene& scene, const SkinInputs& now, const Progress& progress, Cost& cost);
     void followSamples(const Scene& scene, const SkinInputs& now, Cost& cost);
     bool gather(const SkinInputs& now, const Progress& progress, Cost& cost);
+    std::optional<DrawBlock> drawsOf(const SkinInputs& now, const RsmSource& source,
+                                     const Kept& light);
+    bool isRenewing() const;
     std::vector<GatheredSource> gathered(const SkinInputs& now) const;
     SkinPart::Light lightOf(const SkinInputs& now) const;
     void show(const SkinInputs& now, Cost& cost);
@@ -70,7 +81,8 @@ private:
     Viewport& m_viewport;
     std::unique_ptr<GpuSkinLights> m_lights;
     SkinObjects m_objects;
-    std::vector<Kept> m_kept; ///< each shape once
+    std::vector<Kept> m_kept;                   ///< each shape once
+    std::map<std::uint32_t, KeptDraws> m_draws; ///< by index into Scene::lights
     Versioned<SampleKey> m_samples;
     std::uint64_t m_gathers = 0;                ///< of lights, since the beginning
     std::uint64_t m_skinOf = 0, m_cachesOf = 0; ///< versions in m_objects of what was sent

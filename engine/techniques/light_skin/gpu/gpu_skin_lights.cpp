@@ -27,11 +27,12 @@ namespace {
 
 constexpr VkDescriptorType kStepBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 constexpr std::array<VkDescriptorType, SKIN_STEP_BINDINGS> kStepTypes = {
-    kRsmTypes[0], kRsmTypes[1], kRsmTypes[2], kStepBuffer, kStepBuffer,
+    kRsmTypes[0], kRsmTypes[1], kRsmTypes[2], kStepBuffer, kStepBuffer, kStepBuffer,
     kStepBuffer,  kStepBuffer,  kStepBuffer,  kStepBuffer, kStepBuffer};
 constexpr std::uint32_t kStepLanes = 32; ///< of a workgroup
 
 static_assert(sizeof(CacheSums) == SKIN_SUMS * sizeof(float));
+static_assert(SKIN_SEEN_SHARE == double(kSeenShare));
 
 /// Makes the buffer large enough for `count` items.
 void ensure(gpu::Device& device, gpu::Buffer& buffer, std::size_t count, std::size_t itemBytes,
@@ -74,7 +75,8 @@ GpuSkinLights::GpuSkinLights(gpu::Device& device, Viewport& viewport)
     };
     m_readTexels =
         gpu::createComputePipeline(device, kSkinTexelsComp, m_layout.handle, {}, "virtual lights");
-    m_findSamples = pipeline(kSkinSamplesComp, "view samples");
+    m_findSamples = pipeline(kSkinSamplesComp, "view samples", {0});
+    m_seeCaches = pipeline(kSkinSamplesComp, "seen caches", {1});
     m_measure = pipeline(kSkinImportanceComp, "importance");
     m_sumColumns = pipeline(kSkinSumsComp, "sums of columns", {0});
     m_sumAlong = pipeline(kSkinSumsComp, "sums along columns", {1});
@@ -90,7 +92,7 @@ Result<std::unique_ptr<GpuSkinLights>> GpuSkinLights::create(gpu::Device& device
 }
 
 /// What a step does not read is bound to a buffer all the same.
-void GpuSkinLights::bindBuffers(const MappedLights* lights) {
+void GpuSkinLights::bindBuffers(const MappedLights* lights, const gpu::Buffer* draws) {
     ensure(m_device, m_importance, 1, sizeof(float), "importance");
     const auto bind = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
         gpu::writeBuffer(m_device, m_set, binding, kStepBuffer,
@@ -103,6 +105,7 @@ void GpuSkinLights::bindBuffers(const MappedLights* lights) {
     bind(SKIN_STEP_CHOSEN, m_chosen);
     bind(SKIN_STEP_CACHES, m_caches);
     bind(SKIN_STEP_RECEIVED, m_received);
+    bind(SKIN_STEP_DRAWS, draws ? *draws : m_draws);
 }
 
 MappedLights GpuSkinLights::cast(const Light& light, const Bounds& bounds, std::uint32_t size) {
@@ -148,26 +151,47 @@ MappedLights GpuSkinLights::cast(const Light& light, const Bounds& bounds, std::
     return mapped;
 }
 
-void GpuSkinLights::findSamples(const Viewpoint& view, const Bounds& bounds, std::uint32_t count) {
-    glm::uvec2 size = view.size;
-    if (size.x == 0 || size.y == 0)
-        size = {std::max(std::uint32_t(std::lround(kRowsWithoutSize * view.aspect)), 1U),
-                std::uint32_t(kRowsWithoutSize)};
+/// Draws the view and lets a shader find or see the samples.
+void GpuSkinLights::lookAt(const Viewpoint& view, const Bounds& bounds,
+                           const gpu::Pipeline& pipeline, float near) {
+    const glm::uvec2 size = sampledPixels(view);
     const SurfaceMapView map = surfaceMapOf(view.camera, float(size.x) / float(size.y), bounds);
-    ensure(m_device, m_samples, count, sizeof(shared::GpuViewSample), "view samples");
-    m_sampleCount = count;
     const shared::GpuSkinView constants{.fromClip = glm::mat4(glm::inverse(glm::dmat4(map.toClip))),
                                         .size = size,
-                                        .samples = count,
-                                        .eye = view.camera.eye};
+                                        .samples = m_sampleCount,
+                                        .eye = view.camera.eye,
+                                        .near = near};
     m_viewport.readSurfaces(
         view.camera, size, [&](VkCommandBuffer cmd, const SurfaceMap& images, std::size_t) {
             writeRsmImages(m_device, m_set, images);
             bindBuffers(nullptr);
-            m_dispatches += gpu::dispatch(m_device, cmd, m_findSamples.handle, m_layout.handle,
-                                          m_set, std::as_bytes(std::span(&constants, 1)),
-                                          gpu::groups(count, kStepLanes));
+            m_dispatches += gpu::dispatch(m_device, cmd, pipeline.handle, m_layout.handle, m_set,
+                                          std::as_bytes(std::span(&constants, 1)),
+                                          gpu::groups(m_sampleCount, kStepLanes));
         });
+}
+
+void GpuSkinLights::findSamples(const Viewpoint& view, const Bounds& bounds, std::uint32_t count) {
+    ensure(m_device, m_samples, count, sizeof(shared::GpuViewSample), "view samples");
+    m_sampleCount = count;
+    lookAt(view, bounds, m_findSamples, 0);
+}
+
+void GpuSkinLights::findSeenCaches(const LightCaches& caches, const Viewpoint& view,
+                                   const Bounds& bounds) {
+    const CachesInView candidates = cachesInView(caches, view);
+    std::vector<shared::GpuViewSample> items;
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+        items.push_back({.position = candidates.caches.position[i],
+                         .found = 0,
+                         .normal = candidates.caches.normal[i],
+                         .pixel = candidates.pixel[i].x | candidates.pixel[i].y << 16});
+    m_sampleCount = std::uint32_t(items.size());
+    if (!items.empty()) {
+        m_samples = uploadedItems(m_device, items, "caches in view");
+        lookAt(view, bounds, m_seeCaches, candidates.near);
+    }
+    setSamples(m_sampleCount > 0 ? readSamples() : ViewSamples{}); // hidden ones cost nothing
 }
 
 void GpuSkinLights::setSamples(const ViewSamples& samples) {
@@ -199,6 +223,8 @@ void GpuSkinLights::makeRoom(const MappedLights& lights, const GatherOptions& op
     ensure(m_device, m_received, m_cacheCount, sizeof(CacheSums), "light of caches");
     if (options.all)
         return;
+    gpu::Buffer& draws = options.draws ? *options.draws : m_draws;
+    ensure(m_device, draws, options.count, sizeof(shared::GpuLightDraw), "draws of lights");
     ensure(m_device, m_importance, lights.count(), sizeof(float), "importance");
     ensure(m_device, m_sums, 2 * (std::size_t(lights.count()) + lights.columns), sizeof(float),
            "sums of importance");
@@ -228,7 +254,7 @@ bool GpuSkinLights::gather(const MappedLights& lights, const GatherOptions& opti
     GatherOptions chosen = options;
     chosen.all |= lights.count() <= options.count;
     makeRoom(lights, chosen);
-    bindBuffers(&lights);
+    bindBuffers(&lights, chosen.draws);
     GpuSkinStep step{
         .columns = lights.columns,
         .rows = lights.rows,
@@ -239,7 +265,9 @@ bool GpuSkinLights::gather(const MappedLights& lights, const GatherOptions& opti
         .eye = options.eye ? *options.eye : glm::vec3(0),
         .nearest = options.nearest,
         .caches = m_cacheCount,
-        .epsilon = kProxyEpsilon / std::max(options.diagonal * options.diagonal, 1e-30f)};
+        .epsilon = kProxyEpsilon / std::max(options.diagonal * options.diagonal, 1e-30f),
+        .block = options.part.block,
+        .blocks = options.part.blocks};
     const std::uint32_t end = chosen.all ? lights.count() : 1; // of batches
     while (step.first < end) {
         progress.at("light caches", float(step.first) / float(end));
@@ -277,7 +305,7 @@ ViewSamples GpuSkinLights::readSamples() const {
 std::uint64_t GpuSkinLights::bytes() const {
     std::uint64_t bytes = m_mapBytes;
     for (const gpu::Buffer* buffer :
-         {&m_importance, &m_sums, &m_samples, &m_chosen, &m_caches, &m_received})
+         {&m_importance, &m_sums, &m_samples, &m_chosen, &m_caches, &m_received, &m_draws})
         bytes += buffer->size;
     return bytes;
 }

@@ -7,6 +7,7 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/render/viewport.h"
 #include "engine/techniques/light_skin/gather_light.h"
+#include "engine/techniques/light_skin/importance.h"
 #include "engine/techniques/light_skin/view_samples.h"
 #include "shaders/shared/gpu_skin_steps.h"
 
@@ -33,6 +34,10 @@ struct GatherOptions {
     float nearest = 1;              ///< as for importances() [m]
     float diagonal = 1;             ///< as for gatheringLights() [m]
     const glm::vec3* eye = nullptr; ///< null: nothing glossy
+    /// Of chosen lights: the draws that are made again, and those of the last time, or an empty
+    /// buffer, which is made; null: all draws are made and none is kept. As drawLights().
+    DrawBlock part;
+    gpu::Buffer* draws = nullptr;
 };
 
 /// Reflective shadow maps that a viewport draws, their importance for a view, the choice of virtual
@@ -52,6 +57,8 @@ public:
     /// Draws the view at its size, or at 1024 rows where it has none, and finds samples in it.
     void findSamples(const Viewpoint& view, const Bounds& bounds, std::uint32_t count);
     void setSamples(const ViewSamples& samples);
+    /// Draws the view and finds those of the caches that it shows, which become the samples.
+    void findSeenCaches(const LightCaches& caches, const Viewpoint& view, const Bounds& bounds);
 
     /// `exponents`: of the caches' lobes; empty where nothing glossy is asked for.
     void setCaches(const LightCaches& caches, std::span<const float> exponents);
@@ -69,7 +76,9 @@ public:
 
 private:
     GpuSkinLights(gpu::Device& device, Viewport& viewport);
-    void bindBuffers(const MappedLights* lights);
+    void bindBuffers(const MappedLights* lights, const gpu::Buffer* draws = nullptr);
+    void lookAt(const Viewpoint& view, const Bounds& bounds, const gpu::Pipeline& pipeline,
+                float near);
     void makeRoom(const MappedLights& lights, const GatherOptions& options);
     void recordChoice(VkCommandBuffer cmd, const MappedLights& lights, shared::GpuSkinStep step);
     void record(VkCommandBuffer cmd, const gpu::Pipeline& pipeline, const shared::GpuSkinStep& step,
@@ -77,14 +86,14 @@ private:
 
     gpu::Device& m_device;
     Viewport& m_viewport;
-    gpu::Buffer m_importance, m_sums, m_samples, m_chosen, m_caches, m_received;
+    gpu::Buffer m_importance, m_sums, m_samples, m_chosen, m_caches, m_received, m_draws;
     std::uint32_t m_sampleCount = 0, m_cacheCount = 0;
     gpu::DescriptorSetLayout m_setLayout;
     gpu::DescriptorPool m_pool;
     VkDescriptorSet m_set = VK_NULL_HANDLE;
     gpu::PipelineLayout m_layout;
-    gpu::Pipeline m_readTexels, m_findSamples, m_measure, m_sumColumns, m_sumAlong, m_choose,
-        m_gather;
+    gpu::Pipeline m_readTexels, m_findSamples, m_seeCaches, m_measure, m_sumColumns, m_sumAlong,
+        m_choose, m_gather;
     std::uint64_t m_dispatches = 0, m_mapBytes = 0;
 };
 

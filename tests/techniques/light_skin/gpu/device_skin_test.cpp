@@ -86,6 +86,32 @@ TEST_F(DeviceSkinTest, FindsTheSamplesOfTheCpu) {
     EXPECT_LE(off, 2U) << "pixels on edges";
 }
 
+TEST_F(DeviceSkinTest, SeesTheCachesThatTheCpuSees) {
+    const Scene scene = glossyRoom();
+    show(scene);
+    auto lights = std::move(*GpuSkinLights::create(*device, *viewport));
+    MeshSkins skins;
+    const LightCaches caches = skins.place(scene, {0.04f, 0.5f, false});
+    const Viewpoint of = view();
+    lights->findSeenCaches(caches, of, scene.bounds);
+    const ViewSamples found = lights->readSamples(),
+                      expected = seenCaches(TraceScene(scene), scene, cachesInView(caches, of), of);
+    EXPECT_GT(expected.size(), 100U);
+    EXPECT_LT(expected.size(), cachesInView(caches, of).size());
+    std::size_t both = 0;
+    for (const glm::vec3 p : expected.position)
+        both += std::ranges::count(found.position, p);
+    std::printf("%zu caches seen, %zu by the CPU, %zu by both\n", found.size(), expected.size(),
+                both);
+    EXPECT_LE(found.size() - both + expected.size() - both, expected.size() / 100) << "on outlines";
+    // None where the view shows none.
+    Viewpoint away = of;
+    away.camera.eye = {100, 100, 100};
+    away.camera.target = {200, 200, 200};
+    lights->findSeenCaches(caches, away, scene.bounds);
+    EXPECT_EQ(lights->readSamples().size(), 0U);
+}
+
 // Texels on edges of objects may fall to either side.
 TEST_F(DeviceSkinTest, GathersWhatTheCpuGathersOfAllTexels) {
     const Scene scene = glossyRoom(true);
@@ -209,6 +235,42 @@ TEST_F(DeviceSkinTest, DrawsTheLightOfTheCpu) {
     const IndirectField read = skin->readField();
     ASSERT_EQ(read.parts.size(), 1U);
     ASSERT_TRUE(skin->snapshot());
+}
+
+TEST_F(DeviceSkinTest, RenewsAPartOfTheDrawsUntilAllAreThoseOfTheView) {
+    Scene scene = glossyRoom();
+    scene.technique.settings["light-skin.vals"] = 200;
+    show(scene);
+    const auto whole = light(), lazy = light();
+    Scene lazily = scene;
+    lazily.technique.settings["light-skin.renew"] = 0.25;
+    const auto follow = [&](const Viewpoint* of) {
+        update(*whole, scene, of);
+        return update(*lazy, lazily, of);
+    };
+    const auto areEqual = [&] { return whole->readField() == lazy->readField(); };
+    Viewpoint of = view();
+    EXPECT_TRUE(follow(&of).converged) << "the first light is whole";
+    EXPECT_TRUE(areEqual());
+    of.camera.eye.x -= 0.2f;
+    of.camera.target.z += 0.2f;
+    EXPECT_FALSE(follow(&of).converged);
+    for (Scene* moved : {&scene, &lazily})
+        moved->lights[0].position.z += 0.2f;
+    for (int k = 1; k <= 4; ++k) {
+        const LightingReport report = follow(&of);
+        EXPECT_EQ(report.converged, k == 4) << k;
+        EXPECT_EQ(report.bounces, k == 4 ? 1U : 0U) << k;
+        EXPECT_EQ(areEqual(), k == 4) << k;
+    }
+    EXPECT_TRUE(follow(&of).skipped);
+    // A cancelled update loses no draw.
+    of.camera.eye.x += 0.4f;
+    std::atomic<bool> cancel = true;
+    EXPECT_FALSE(lazy->update({.scene = lazily, .view = &of}, {.cancel = &cancel}).converged);
+    while (!follow(&of).converged) {
+    }
+    EXPECT_TRUE(areEqual());
 }
 
 TEST_F(DeviceSkinTest, MakesAgainOnlyWhatChangedWithTheSameBits) {
