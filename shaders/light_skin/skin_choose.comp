@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses virtual lights by their importance and by their flux, as drawLights() of
+// Chooses virtual lights by their importance, their flux and their area, as drawLights() of
 // engine/techniques/light_skin/importance.cpp, or copies a batch of all of them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -38,32 +38,33 @@ GpuChosenLight weighted(uint i, float weight) {
 
 /// Makes draw k, if it is of the part that is made again.
 void drawAgain(uint k) {
-    const uint all = step.columns * step.rows, ofColumns = 2u * all;
-    const vec2 total = vec2(sums[ofColumns + step.columns - 1u], sums[ofColumns + 2u * step.columns - 1u]);
-    uint byFlux = step.byFlux; // of the draws
-    if (!(total.x > 0.0) && byFlux > 0u)
-        byFlux = step.count; // nothing is important
-    if (!(total.y > 0.0) || (byFlux == 0u && !(total.x > 0.0))) {
+    const uint all = step.columns * step.rows, ofColumns = 3u * all;
+    const vec3 total = vec3(sums[ofColumns + step.columns - 1u], sums[ofColumns + 2u * step.columns - 1u],
+                            sums[ofColumns + 3u * step.columns - 1u]);
+    uint defensive = step.defensive; // of the draws
+    if (!(total.x > 0.0) && defensive > 0u)
+        defensive = step.count; // nothing is important
+    if (!(total.y > 0.0) || (defensive == 0u && !(total.x > 0.0))) {
         draws[k] = GpuLightDraw(0u, 0.0);
         return;
     }
-    // Each kind of draw has a sequence of its own, and its own part of it is made again.
-    const uint important = step.count - byFlux;
-    const bool flux = k >= important;
-    const uint number = flux ? k - important : k, count = flux ? byFlux : important;
+    // Importance, flux, area. Each kind of draw has a sequence of its own, and its own part of it is made again.
+    const uvec3 counts = uvec3(step.count - defensive, defensive - defensive / 2u, defensive / 2u);
+    const uint kind = k < counts.x ? 0u : k < counts.x + counts.y ? 1u : 2u;
+    const uint number = k - (kind > 0u ? counts.x : 0u) - (kind > 1u ? counts.y : 0u), count = counts[kind];
     if (number < count * step.block / step.blocks || number >= count * (step.block + 1u) / step.blocks)
         return;
     const vec2 u = haltonPoint(number);
-    const uint kind = flux ? 1u : 0u;
     const uint first = ofColumns + kind * step.columns;
     const uint column = firstAbove(first, step.columns, u.x * total[kind]) - first;
     const uint top = kind * all + column * step.rows;
     const uint i = firstAbove(top, step.rows, u.y * sums[top + step.rows - 1u]) - kind * all;
-    const float share = float(byFlux) / float(step.count);
-    float probability = share * dot(texels[i].flux, vec3(0.2126, 0.7152, 0.0722)) / total.y;
-    if (share < 1.0)
-        probability += (1.0 - share) * importance[i] / total.x;
-    draws[k] = GpuLightDraw(i, 1.0 / (float(step.count) * probability));
+    const vec3 value = vec3(importance[i], dot(texels[i].flux, vec3(0.2126, 0.7152, 0.0722)), texels[i].area);
+    float expected = 0.0; // N P
+    for (uint j = 0u; j < 3u; ++j)
+        if (counts[j] > 0u)
+            expected += float(counts[j]) * value[j] / total[j];
+    draws[k] = GpuLightDraw(i, 1.0 / expected);
 }
 
 void main() {

@@ -19,7 +19,7 @@ using glm::uvec2;
     3u // GpuVirtualLight of each texel of a light's views: column (view size + x), then row
 #define SKIN_STEP_IMPORTANCE 4u // float of each texel
 #define SKIN_STEP_SUMS                                                                             \
-    5u // floats: sums down the columns of importance, then of flux; along the columns' sums of both
+    5u // floats: sums down the columns of importance, of flux and of area; along their sums of each
 #define SKIN_STEP_SAMPLES 6u  // GpuViewSample
 #define SKIN_STEP_CHOSEN 7u   // GpuChosenLight
 #define SKIN_STEP_CACHES 8u   // GpuGatheringCache
@@ -75,7 +75,7 @@ struct GpuSkinView {
 
 struct GpuSkinStep {
     uint columns, rows, samples, count; // of the map; of the view; lights to choose, or in the batch
-    uint first, byFlux, all, add;       // of the batch; of the draws; every texel counts; the sums go on
+    uint first, defensive, all, add;    // of the batch; draws by flux and area; every texel counts; the sums go on
     vec3 eye; float nearest;            // m; m, below which lights beside a sample count alike
     uint caches; float epsilon; // m^-2; weight of an area that does not light a cache
     uint block, blocks;         // of the draws that are made again, as DrawBlock

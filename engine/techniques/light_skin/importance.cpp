@@ -121,26 +121,30 @@ void drawLights(const VirtualLights& lights, std::span<const float> importance,
     draws.cell.resize(count, 0);
     draws.weight.resize(count, 0);
     const std::vector<float> flux = fluxLuminances(lights);
-    const RasterSums important(lights, importance), bright(lights, flux);
-    auto byFlux = std::uint32_t(std::lround(double(options.defence) * count));
-    if (!(important.total() > 0) && byFlux > 0)
-        byFlux = count;
-    if (!(bright.total() > 0) || (byFlux == 0 && !(important.total() > 0))) {
+    const RasterSums important(lights, importance), bright(lights, flux), wide(lights, lights.area);
+    auto defensive = std::uint32_t(std::lround(double(options.defence) * count));
+    if (!(important.total() > 0) && defensive > 0)
+        defensive = count;
+    if (!(bright.total() > 0) || (defensive == 0 && !(important.total() > 0))) {
         draws.weight.assign(count, 0);
         return;
     }
-    const double share = double(byFlux) / count; // of the draws as made, so that weights are exact
+    const std::uint32_t byArea = defensive / 2, byFlux = defensive - byArea;
+    // Shares of the draws as made, so that weights are exact.
     const auto drawn = [&](std::uint32_t k, std::uint32_t light) {
-        double probability = share * double(flux[light]) / bright.total();
-        if (share < 1)
-            probability += (1 - share) * double(importance[light]) / important.total();
+        double expected = byFlux * double(flux[light]) / bright.total(); // N P
+        if (byArea > 0)
+            expected += byArea * double(lights.area[light]) / wide.total();
+        if (defensive < count)
+            expected += (count - defensive) * double(importance[light]) / important.total();
         draws.cell[k] = lights.cell[light];
-        draws.weight[k] = 1 / (count * probability);
+        draws.weight[k] = 1 / expected;
     };
     // Each kind of draw has a sequence of its own: of one sequence, every tenth point has the same
     // first digit.
-    DrawsOfKind{important, 0, count - byFlux}.each(part, options.shift, drawn);
-    DrawsOfKind{bright, count - byFlux, byFlux}.each(part, options.shift, drawn);
+    DrawsOfKind{important, 0, count - defensive}.each(part, options.shift, drawn);
+    DrawsOfKind{bright, count - defensive, byFlux}.each(part, options.shift, drawn);
+    DrawsOfKind{wide, count - byArea, byArea}.each(part, options.shift, drawn);
 }
 
 ChosenLights drawnLights(const VirtualLights& lights, const LightDraws& draws) {

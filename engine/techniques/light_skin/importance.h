@@ -52,8 +52,11 @@ struct ChosenLights {
 
 struct ChoiceOptions {
     std::uint32_t count = 1; ///< N
-    float defence = 0.1f;    ///< share of the draws that is by flux alone, [0, 1]
-    glm::dvec2 shift{0};     ///< of the points, modulo 1
+    /// Share of the draws that is by flux alone and, as many, by area alone, [0, 1]. Without the
+    /// former, light that no view sample faces never arrives. Without the latter, places of
+    /// proxies, which are means over the lights' areas, are those of a few faint ones.
+    float defence = 0.1f;
+    glm::dvec2 shift{0}; ///< of the points, modulo 1
 };
 
 /// Cells of the raster that draws chose, by number of the draw. They stand for the lights that are
@@ -77,9 +80,9 @@ void drawLights(const VirtualLights& lights, std::span<const float> importance,
 /// The lights in the cells that were drawn.
 ChosenLights drawnLights(const VirtualLights& lights, const LightDraws& draws);
 
-/// Draws N lights, one part by importance, the other by flux; both by points of the Halton sequence
-/// in bases 2 and 3. All of them, with weight 1, where there are no more than N. Where nothing is
-/// important all are drawn by flux; none where `defence` is 0.
+/// Draws N lights, by importance, by flux and by area, each by points of the Halton sequence in
+/// bases 2 and 3. All of them, with weight 1, where there are no more than N. Where nothing is
+/// important all are drawn by flux and area; none where `defence` is 0.
 ChosenLights chooseLights(const VirtualLights& lights, std::span<const float> importance,
                           const ChoiceOptions& options);
 

@@ -61,9 +61,11 @@ inline constexpr std::array<TechniqueSetting, 12> kSkinSettings = {
       .range = {5, 80},
       .usual = 30},
      {.setting = {.key = "light-skin.defence",
-                  .label = "Share drawn by flux",
-                  .tooltip = "Share of the virtual area lights that is chosen by their flux alone. "
-                             "With 0, light that no view sample faces never arrives",
+                  .label = "Share drawn by flux and area",
+                  .tooltip =
+                      "Share of the virtual area lights that is chosen by their flux alone, "
+                      "and by their area alone, half each. With 0, light that no view sample "
+                      "faces never arrives, and faint texels displace the proxy lights",
                   .invalidates = Invalidates::Light},
       .range = {0, 1},
       .usual = 0.1},

@@ -53,16 +53,16 @@ ViewSamples samplesOfView(const TraceScene& trace, const Scene& scene, const Vie
 CachesInView cachesInView(const LightCaches& caches, const Viewpoint& view) {
     const glm::uvec2 size = sampledPixels(view);
     const PixelRays rays(view.camera, size.x, size.y);
-    CachesInView in{.near = caches.spacing};
+    CachesInView found{.near = caches.spacing};
     for (std::size_t c = 0; c < caches.size(); ++c) {
         const std::optional<glm::vec2> pixel = rays.pixelOf(caches.position[c]);
         if (!pixel || glm::dot(caches.position[c] - rays.eye, caches.normal[c]) >= 0)
             continue;
-        in.caches.position.push_back(caches.position[c]);
-        in.caches.normal.push_back(caches.normal[c]);
-        in.pixel.push_back(glm::min(glm::uvec2(*pixel), size - 1U));
+        found.caches.position.push_back(caches.position[c]);
+        found.caches.normal.push_back(caches.normal[c]);
+        found.pixel.push_back(glm::min(glm::uvec2(*pixel), size - 1U));
     }
-    return in;
+    return found;
 }
 
 ViewSamples seenCaches(const TraceScene& trace, const Scene& scene, const CachesInView& candidates,

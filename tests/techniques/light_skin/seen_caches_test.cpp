@@ -80,17 +80,17 @@ TEST(SeenCaches, AreThoseThatFaceTheEyeInThePictureAndAreNotHidden) {
 TEST(SeenCaches, AreTheSamplesOfAnUpdateWithAView) {
     LitBySkin lit(room());
     const Viewpoint view = viewOf();
-    const auto samplesOf = [&](const Viewpoint* of) {
+    const auto samplesOf = [&](const Viewpoint* shown) {
         SkinState state;
         SkinCost cost;
         EXPECT_TRUE(state.follow(
-            lit.scene, skinInputsOf(lit.scene, of),
+            lit.scene, skinInputsOf(lit.scene, shown),
             [&]() -> const TraceScene& { return *lit.trace; }, {}, cost));
-        EXPECT_EQ(of == nullptr, cost.rays == 6 * 24 * 24) << "one more for each candidate";
+        EXPECT_EQ(shown == nullptr, cost.rays == 6 * 24 * 24) << "one more for each candidate";
         const ViewSamples expected =
-            of ? seenCaches(*lit.trace, lit.scene, cachesInView(*state.objects().caches(), *of),
-                            *of)
-               : samplesOfSurfaces(lit.scene, 256);
+            shown ? seenCaches(*lit.trace, lit.scene,
+                               cachesInView(*state.objects().caches(), *shown), *shown)
+                  : samplesOfSurfaces(lit.scene, 256);
         EXPECT_EQ(state.samples().position, expected.position);
         EXPECT_GT(expected.size(), 100U);
     };

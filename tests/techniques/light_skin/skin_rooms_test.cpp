@@ -8,8 +8,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 namespace limn::skin_rooms_test {
 namespace {
@@ -184,16 +186,43 @@ double seenShare(const Scene& scene, glm::vec3 p) {
         gatherLight(gatheringLights(lights, allLights(lights), 1), cache).diffuse.light.x);
 }
 
+// Towards the rim of the spot, texels are ever fainter. Those that are chosen at all stand for
+// many, and places are means over areas: the draws by area keep a few of them from being all that
+// counts.
+TEST(SkinRooms, PlaceProxiesOfChosenTexelsWhereThoseOfAllAre) {
+    Scene scene = litCeiling(false, 4, 2048);
+    LitBySkin chosen(scene);
+    scene.technique.settings["light-skin.all"] = 1;
+    LitBySkin all(scene);
+    chosen.update();
+    all.update();
+    const auto& expected = all.part().light().proxies;
+    for (std::size_t c = 0; c < expected.size(); ++c) {
+        const ProxyLight &found = chosen.part().light().proxies[c].diffuse,
+                         &wanted = expected[c].diffuse;
+        if (!(wanted.radius() > 0.5f)) // of the ceiling itself
+            continue;
+        // A twentieth of 2048 draws is by area.
+        const float error = 4 * wanted.radius() / 2 / std::sqrt(102.f);
+        EXPECT_LT(glm::distance(found.position, wanted.position), error);
+        EXPECT_NEAR(found.radius(), wanted.radius(), 2 * error);
+    }
+}
+
 // An object before a lit wall throws a shadow on what lies behind it; how wide depends on the
 // caches.
 TEST(SkinRooms, LieInTheShadeOfObjects) {
-    for (const double spacing : {2., 4., 8.})
-        for (const double vals : {128., 2048.}) {
+    for (const double spacing : {2., 4., 8.}) {
+        std::vector<double> whole; // shares with all texels
+        for (const double vals : {65536., 128., 2048.}) {
+            if (vals < 200 && spacing > 2)
+                continue;
             LitBySkin open(litCeiling(false, spacing, vals)),
                 blocked(litCeiling(true, spacing, vals));
             open.update();
             blocked.update();
             std::printf("spacing %g %%, N = %g:", spacing, vals);
+            std::size_t k = 0;
             for (const float x : {0.f, 0.7f, 1.f, 1.3f, 1.8f}) {
                 const auto light = [&](const LitBySkin& lit) {
                     return double(lit.irradiance({x, 0, 0}, {0, 1, 0}, 1).x);
@@ -204,9 +233,16 @@ TEST(SkinRooms, LieInTheShadeOfObjects) {
                     EXPECT_LT(share, 0.2) << "the middle of the shadow";
                 }
                 EXPECT_LE(share, 1.05);
+                if (vals > 65535)
+                    whole.push_back(share);
+                if (vals > 2047) {
+                    EXPECT_NEAR(share, whole[k], 0.1) << "N = " << vals;
+                }
+                ++k;
             }
             std::printf("\n");
         }
+    }
 }
 
 } // namespace

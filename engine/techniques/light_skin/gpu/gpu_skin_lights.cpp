@@ -226,7 +226,7 @@ void GpuSkinLights::makeRoom(const MappedLights& lights, const GatherOptions& op
     gpu::Buffer& draws = options.draws ? *options.draws : m_draws;
     ensure(m_device, draws, options.count, sizeof(shared::GpuLightDraw), "draws of lights");
     ensure(m_device, m_importance, lights.count(), sizeof(float), "importance");
-    ensure(m_device, m_sums, 2 * (std::size_t(lights.count()) + lights.columns), sizeof(float),
+    ensure(m_device, m_sums, 3 * (std::size_t(lights.count()) + lights.columns), sizeof(float),
            "sums of importance");
 }
 
@@ -260,7 +260,7 @@ bool GpuSkinLights::gather(const MappedLights& lights, const GatherOptions& opti
         .rows = lights.rows,
         .samples = m_sampleCount,
         .count = options.count,
-        .byFlux = std::uint32_t(std::lround(double(options.defence) * double(options.count))),
+        .defensive = std::uint32_t(std::lround(double(options.defence) * double(options.count))),
         .all = chosen.all ? 1U : 0U,
         .eye = options.eye ? *options.eye : glm::vec3(0),
         .nearest = options.nearest,

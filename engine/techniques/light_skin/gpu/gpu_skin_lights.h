@@ -29,7 +29,7 @@ struct MappedLights {
 /// Which of them light the caches.
 struct GatherOptions {
     std::uint32_t count = 1; ///< N; all where there are no more
-    float defence = 0.1f;    ///< share of the draws that is by flux alone
+    float defence = 0.1f;    ///< as ChoiceOptions::defence
     bool all = false;
     float nearest = 1;              ///< as for importances() [m]
     float diagonal = 1;             ///< as for gatheringLights() [m]

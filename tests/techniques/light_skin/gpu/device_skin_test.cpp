@@ -92,12 +92,13 @@ TEST_F(DeviceSkinTest, SeesTheCachesThatTheCpuSees) {
     auto lights = std::move(*GpuSkinLights::create(*device, *viewport));
     MeshSkins skins;
     const LightCaches caches = skins.place(scene, {0.04f, 0.5f, false});
-    const Viewpoint of = view();
-    lights->findSeenCaches(caches, of, scene.bounds);
+    const Viewpoint shown = view();
+    lights->findSeenCaches(caches, shown, scene.bounds);
     const ViewSamples found = lights->readSamples(),
-                      expected = seenCaches(TraceScene(scene), scene, cachesInView(caches, of), of);
+                      expected =
+                          seenCaches(TraceScene(scene), scene, cachesInView(caches, shown), shown);
     EXPECT_GT(expected.size(), 100U);
-    EXPECT_LT(expected.size(), cachesInView(caches, of).size());
+    EXPECT_LT(expected.size(), cachesInView(caches, shown).size());
     std::size_t both = 0;
     for (const glm::vec3 p : expected.position)
         both += std::ranges::count(found.position, p);
@@ -105,7 +106,7 @@ TEST_F(DeviceSkinTest, SeesTheCachesThatTheCpuSees) {
                 both);
     EXPECT_LE(found.size() - both + expected.size() - both, expected.size() / 100) << "on outlines";
     // None where the view shows none.
-    Viewpoint away = of;
+    Viewpoint away = shown;
     away.camera.eye = {100, 100, 100};
     away.camera.target = {200, 200, 200};
     lights->findSeenCaches(caches, away, scene.bounds);
@@ -244,31 +245,31 @@ TEST_F(DeviceSkinTest, RenewsAPartOfTheDrawsUntilAllAreThoseOfTheView) {
     const auto whole = light(), lazy = light();
     Scene lazily = scene;
     lazily.technique.settings["light-skin.renew"] = 0.25;
-    const auto follow = [&](const Viewpoint* of) {
-        update(*whole, scene, of);
-        return update(*lazy, lazily, of);
+    const auto follow = [&](const Viewpoint* from) {
+        update(*whole, scene, from);
+        return update(*lazy, lazily, from);
     };
     const auto areEqual = [&] { return whole->readField() == lazy->readField(); };
-    Viewpoint of = view();
-    EXPECT_TRUE(follow(&of).converged) << "the first light is whole";
+    Viewpoint shown = view();
+    EXPECT_TRUE(follow(&shown).converged) << "the first light is whole";
     EXPECT_TRUE(areEqual());
-    of.camera.eye.x -= 0.2f;
-    of.camera.target.z += 0.2f;
-    EXPECT_FALSE(follow(&of).converged);
+    shown.camera.eye.x -= 0.2f;
+    shown.camera.target.z += 0.2f;
+    EXPECT_FALSE(follow(&shown).converged);
     for (Scene* moved : {&scene, &lazily})
         moved->lights[0].position.z += 0.2f;
     for (int k = 1; k <= 4; ++k) {
-        const LightingReport report = follow(&of);
+        const LightingReport report = follow(&shown);
         EXPECT_EQ(report.converged, k == 4) << k;
         EXPECT_EQ(report.bounces, k == 4 ? 1U : 0U) << k;
         EXPECT_EQ(areEqual(), k == 4) << k;
     }
-    EXPECT_TRUE(follow(&of).skipped);
+    EXPECT_TRUE(follow(&shown).skipped);
     // A cancelled update loses no draw.
-    of.camera.eye.x += 0.4f;
+    shown.camera.eye.x += 0.4f;
     std::atomic<bool> cancel = true;
-    EXPECT_FALSE(lazy->update({.scene = lazily, .view = &of}, {.cancel = &cancel}).converged);
-    while (!follow(&of).converged) {
+    EXPECT_FALSE(lazy->update({.scene = lazily, .view = &shown}, {.cancel = &cancel}).converged);
+    while (!follow(&shown).converged) {
     }
     EXPECT_TRUE(areEqual());
 }
