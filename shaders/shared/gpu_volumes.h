@@ -40,7 +40,7 @@ using uint = std::uint32_t;
 #define VOLUME_CACHE_LIGHTS 1u
 #define VOLUME_CACHE_BLOCKS 2u
 #define VOLUME_CACHE_VOXELS                                                                        \
-    3u // uint for each cell of each level: bytes along x, y, z, and distance or mean
+    3u // uint for each cell: bytes along x, y, z, and mean; of level 0: opacity, 0, 0, distance
 #define VOLUME_CACHE_HARMONICS 4u
 #define VOLUME_CACHE_VISIBILITY 5u // float for each block of each cache, where there are maps
 #define VOLUME_CACHE_GLOSSY 6u     // of volume_maps.comp

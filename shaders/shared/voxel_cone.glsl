@@ -27,9 +27,7 @@ float opacityAt(uint side0, uint level, vec3 p, vec3 weight) {
         const vec3 w = mix(1.0 - f, f, vec3(high));
         const uint word = voxels[first + uint((cell.z * side + cell.y) * side + cell.x)];
         const vec3 along = vec3(word & 255u, word >> 8 & 255u, word >> 16 & 255u);
-        const float opacity = level == 0u   ? (word >> 24 == 0u ? 255.0 : 0.0)
-                              : directional ? dot(weight, along)
-                                            : float(word >> 24);
+        const float opacity = level == 0u ? along.x : directional ? dot(weight, along) : float(word >> 24);
         sum += w.x * w.y * w.z * opacity;
     }
     return sum * (1.0 / 255.0);

@@ -23,13 +23,15 @@ public:
         Stopwatch whole;
         VolumeInputs now = volumeInputsOf(input, m_sources.inputs());
         LightingReport report{.converged = true};
-        report.skipped = m_inputs == now;
+        report.skipped = m_inputs == now && !m_sources.fading();
         VolumeCost cost;
         if (!report.skipped) {
             m_inputs.reset(); // a cancelled update starts anew
             if (relight(input, now, progress, cost)) {
                 m_inputs = std::move(now);
-                report.bounces = 1;
+                // Light through voxels that fade is replaced, whatever number of bounces suffices.
+                report.converged = !m_sources.fading();
+                report.bounces = report.converged ? 1 : 0;
             } else {
                 report.converged = report.whole = false;
             }

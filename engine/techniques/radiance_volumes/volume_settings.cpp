@@ -7,7 +7,7 @@ namespace limn {
 
 static constexpr std::array<const char*, 3> kShadows = {"none", "directional", "published"};
 
-constinit const std::array<TechniqueSetting, 14> kVolumeSettings = {
+constinit const std::array<TechniqueSetting, 15> kVolumeSettings = {
     {{.setting = {.key = "radiance-volumes.read",
                   .label = "Area lights along a side",
                   .tooltip =
@@ -91,6 +91,14 @@ constinit const std::array<TechniqueSetting, 14> kVolumeSettings = {
       .range = {16, 512},
       .usual = 64,
       .whole = true},
+     {.setting = {.key = "radiance-volumes.rate",
+                  .label = "Fading of voxels",
+                  .tooltip =
+                      "Where an object moves, opacities of voxels change by this share in each "
+                      "update, so that shadows do not pop. 0: at once",
+                  .invalidates = Invalidates::Light},
+      .range = {0, 1},
+      .usual = 0},
      {.setting = {.key = "radiance-volumes.glossy",
                   .label = "Maps for reflections",
                   .tooltip =
@@ -139,10 +147,11 @@ VolumeSettings volumeSettingsOf(const TechniqueChoice& choice) {
             .level = whole(7),
             .shadow = ConeShadows(whole(8)),
             .voxels = std::bit_floor(whole(9)),
-            .glossy = value(10) > 0,
-            .tile = std::bit_floor(whole(11)),
-            .fill = whole(12),
-            .freeze = value(13) > 0};
+            .rate = float(value(10)),
+            .glossy = value(11) > 0,
+            .tile = std::bit_floor(whole(12)),
+            .fill = whole(13),
+            .freeze = value(14) > 0};
 }
 
 } // namespace limn

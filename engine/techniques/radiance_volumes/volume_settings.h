@@ -12,7 +12,7 @@ namespace limn {
 enum class ConeShadows : std::uint8_t { None, Directional, Published };
 
 /// Settings of radiance volumes, in the order of VolumeSettings.
-extern const std::array<TechniqueSetting, 14> kVolumeSettings;
+extern const std::array<TechniqueSetting, 15> kVolumeSettings;
 
 /// The settings' values. Those that must be powers of two are.
 struct VolumeSettings {
@@ -21,6 +21,7 @@ struct VolumeSettings {
     std::uint32_t level = 0;
     ConeShadows shadow = ConeShadows::None;
     std::uint32_t voxels = 0;
+    float rate = 0; ///< change of a voxel's opacity in an update, in [0, 1]; 0: at once
     bool glossy = false;
     std::uint32_t tile = 0, fill = 0;
     bool freeze = false;

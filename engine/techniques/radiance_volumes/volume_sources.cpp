@@ -51,14 +51,13 @@ bool VolumeSources::follow(const TraceScene& trace, const Scene& scene, const Vo
     if (changes.maps)
         m_lights.clear();
     if (changes.voxels)
-        m_voxels.reset();
+        m_voxels.outdate();
     m_cachesCurrent &= !changes.caches;
     m_before = now;
     if (!followLights(trace, scene, now, progress, cost))
         return false;
     cost.mapMs += clock.lap();
-    if (!m_voxels && now.settings.shadow != ConeShadows::None)
-        m_voxels = std::make_shared<const VoxelVolume>(voxelsOf(scene, now.settings.voxels));
+    m_voxels.follow(scene, now.settings);
     cost.voxelMs += clock.lap();
     if (!m_cachesCurrent) {
         CacheAllocation made =

@@ -7,8 +7,8 @@
 #include "engine/techniques/radiance_volumes/allocation.h"
 #include "engine/techniques/radiance_volumes/area_lights.h"
 #include "engine/techniques/radiance_volumes/cache_light.h"
+#include "engine/techniques/radiance_volumes/shown_voxels.h"
 #include "engine/techniques/radiance_volumes/volume_settings.h"
-#include "engine/techniques/radiance_volumes/voxels.h"
 
 #include <cstdint>
 #include <memory>
@@ -56,8 +56,9 @@ public:
     const CacheAllocation& caches() const { return *m_caches; }
     std::shared_ptr<const CacheAllocation> sharedCaches() const { return m_caches; }
     /// Null where nothing casts a shadow.
-    const VoxelVolume* voxels() const { return m_voxels.get(); }
-    std::shared_ptr<const VoxelVolume> sharedVoxels() const { return m_voxels; }
+    std::shared_ptr<const VoxelVolume> sharedVoxels() const { return m_voxels.shown(); }
+    /// Whether voxels fade: the next follow() changes them, although no input has changed.
+    bool fading() const { return m_voxels.fading(); }
 
     /// The area lights of each source, in their order. Precondition: follow() returned true.
     std::vector<std::shared_ptr<const AreaLights>>
@@ -69,7 +70,7 @@ private:
 
     std::optional<VolumeInputs> m_before;                    ///< of the last follow()
     std::vector<std::shared_ptr<const AreaLights>> m_lights; ///< each shape once
-    std::shared_ptr<const VoxelVolume> m_voxels;
+    ShownVoxels m_voxels;
     std::shared_ptr<const CacheAllocation> m_caches = std::make_shared<const CacheAllocation>();
     bool m_cachesCurrent = false;
 };

@@ -113,7 +113,7 @@ std::vector<std::uint8_t> distances(const CellBits& solid, std::size_t side) {
 } // namespace
 
 std::size_t VoxelVolume::bytes() const {
-    std::size_t sum = solid.words.size() * sizeof(std::uint64_t) + distance.size();
+    std::size_t sum = solid.words.size() * sizeof(std::uint64_t) + opacity.size() + distance.size();
     for (const VoxelLevel& level : coarse)
         sum += level.size() * sizeof(std::uint32_t);
     return sum;
@@ -140,7 +140,8 @@ void averageVoxels(VoxelVolume& volume) {
     for (std::size_t side = volume.side(); side > 1; side /= 2)
         volume.coarse.push_back(
             volume.coarse.empty()
-                ? halved(side, [&](std::size_t c, int) { return volume.solid.test(c) ? 1.f : 0.f; })
+                ? halved(side,
+                         [&](std::size_t c, int) { return float(solidOpacity(volume, c)) / 255; })
                 : halved(side, [&, &fine = volume.coarse.back()](std::size_t c, int which) {
                       return float(opacityByte(fine[c], which)) * (1 / 255.f);
                   }));
@@ -164,6 +165,7 @@ float opacityAt(const VoxelVolume& volume, std::uint32_t level, glm::vec3 p, glm
     const glm::ivec3 c(lowerInteger(q.x), lowerInteger(q.y), lowerInteger(q.z));
     const float f[3] = {q.x - float(c.x), q.y - float(c.y), q.z - float(c.z)};
     const bool directional = weight != glm::vec3(0);
+    const std::uint8_t* const fading = volume.opacity.empty() ? nullptr : volume.opacity.data();
     float sum = 0;
     for (int k = 0; k < 8; ++k) {
         const int x = c.x + (k & 1), y = c.y + (k >> 1 & 1), z = c.z + (k >> 2);
@@ -173,7 +175,7 @@ float opacityAt(const VoxelVolume& volume, std::uint32_t level, glm::vec3 p, glm
         const auto i = std::size_t((z * side + y) * side + x);
         float opacity = 0;
         if (level == 0) {
-            opacity = volume.distance[i] == 0 ? 255.f : 0.f;
+            opacity = float(fading ? fading[i] : volume.distance[i] == 0 ? 255 : 0);
         } else if (const std::uint32_t cell = volume.coarse[level - 1][i]; directional) {
             opacity = weight.x * float(cell & 255) + weight.y * float(cell >> 8 & 255) +
                       weight.z * float(cell >> 16 & 255);

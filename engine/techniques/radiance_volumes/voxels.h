@@ -22,10 +22,13 @@ inline std::uint32_t opacityByte(std::uint32_t cell, int which) {
 }
 
 /// The solid voxels of a scene in a cube over it, and their averages. Level k has 2^k times as
-/// large cells; level 0 is made of bits.
+/// large cells; level 0 is made of bits, unless voxels fade.
 struct VoxelVolume {
-    Lattice lattice; ///< of level 0: a cube with a power of two along each side
-    CellBits solid{0};
+    Lattice lattice;   ///< of level 0: a cube with a power of two along each side
+    CellBits solid{0}; ///< cells that are not empty
+    /// Opacities of level 0 in 255ths, of voxels that fade in and out; empty: all of `solid` are
+    /// opaque.
+    std::vector<std::uint8_t> opacity;
     /// coarse[k - 1]: level k. The mean is that of eight cells each: Crassin et al. Interactive
     /// Indirect Illumination Using Voxel Cone Tracing. 2011. Along an axis is what light along it
     /// meets: two cells one behind the other let through the product of what each lets through, and
@@ -46,7 +49,12 @@ Lattice voxelLattice(const Bounds& bounds, std::uint32_t side);
 
 VoxelVolume voxelsOf(const Scene& scene, std::uint32_t side);
 
-/// Fills all else from `solid`.
+/// Opacity of a cell of level 0, in 255ths.
+inline std::uint8_t solidOpacity(const VoxelVolume& volume, std::size_t cell) {
+    return volume.opacity.empty() ? (volume.solid.test(cell) ? 255 : 0) : volume.opacity[cell];
+}
+
+/// Fills all else from `solid` and `opacity`.
 void averageVoxels(VoxelVolume& volume);
 
 /// Whether all cells of level 0 within `reach` cells of `p` along each axis are empty. May return

@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/field/field_reading.h"
+#include "engine/lighting/lighting_driver.h"
 #include "engine/techniques/radiance_volumes/area_lights.h"
 #include "tests/techniques/radiance_volumes/lit_by_volumes.h"
 #include "tests/techniques/two_lamps.h"
@@ -272,6 +273,8 @@ TEST(RadianceVolumes, TraceOnlyWhatChanged) {
     changed(0, false, "bands");
     lit.set("voxels", 16);
     changed(0, false, "voxels");
+    lit.set("rate", 0.5); // what does not move does not fade
+    changed(0, false, "rate");
     lit.set("shadow", 2);
     changed(0, false, "published cones");
     lit.set("shadow", 0);
@@ -333,9 +336,8 @@ TEST(RadianceVolumes, KeepTheirLightWhenCancelledAndCatchUp) {
     EXPECT_TRUE(anew.part().equals(lit.part()));
 }
 
-// The block stands between the lamp and the floor behind it: the bounce off the far wall is hidden
-// from there by cones alone.
-TEST(RadianceVolumes, CastShadows) {
+/// A block of x = -0.4 ... 0.2, instance 2, between a wall that a spot lights and the floor behind.
+Scene shadowOfABlock() {
     simple::SceneBuilder b;
     b.addMaterial(simple::lambert(glm::vec3(0.7f)));
     b.add(simple::quad({-3, 0, -2}, {0, 0, 4}, {6, 0, 0}));
@@ -346,12 +348,16 @@ TEST(RadianceVolumes, CastShadows) {
                        .direction = glm::vec3(1, 0, 0),
                        .strength = 10,
                        .outerAngle = 0.35f}};
+    b.scene.technique.settings = {{"radiance-volumes.read", 16}};
+    return b.build();
+}
+
+// The bounce off the far wall is hidden from the floor behind the block by cones alone.
+TEST(RadianceVolumes, CastShadows) {
     float behind[2], before[2];
     for (const int shadow : {0, 1}) {
-        Scene scene = b.build();
-        scene.technique.settings = {{"radiance-volumes.shadow", shadow},
-                                    {"radiance-volumes.read", 16}};
-        LitByVolumes lit(scene);
+        LitByVolumes lit(shadowOfABlock());
+        lit.set("shadow", shadow);
         lit.update();
         behind[shadow] = lit.irradiance({-1.2f, 0, 0}, {0, 1, 0}).x;
         before[shadow] = lit.irradiance({1.2f, 0, 0}, {0, 1, 0}).x;
@@ -360,6 +366,45 @@ TEST(RadianceVolumes, CastShadows) {
                 double(behind[1] / behind[0]), double(before[1] / before[0]));
     EXPECT_LT(behind[1], 0.1f * behind[0]);
     EXPECT_GT(before[1], 0.75f * before[0]);
+}
+
+// The block moves into the way of the light. Its voxels take four updates of 64 255ths to fade in.
+TEST(RadianceVolumes, LetShadowsFadeInUntilTheirBitsAreThoseAtOnce) {
+    const glm::vec3 p(-1.2f, 0, 0), up(0, 1, 0);
+    for (const std::uint32_t maxBounces : {1U, 64U}) {
+        LitByVolumes lit(shadowOfABlock());
+        lit.scene.relight.maxBounces = maxBounces;
+        lit.set("rate", 0.25);
+        lit.set("voxels", 32);
+        lit.set("caches", 500);
+        lit.scene.instances[2].toWorld[3].x = -2;
+        lit.retrace();
+        EXPECT_TRUE(lit.update().converged) << "nothing was shown before";
+        float before = lit.irradiance(p, up).x;
+        lit.scene.instances[2].toWorld[3].x = 0;
+        lit.retrace();
+        LightingDriver driver(std::move(lit.lighting));
+        driver.lightChanged();
+        int updates = 0;
+        for (; !driver.done() && updates < 10; ++updates) {
+            const auto report = driver.step({.scene = lit.scene, .trace = lit.trace.get()},
+                                            LightingDriver::Rest::All);
+            ASSERT_TRUE(report);
+            EXPECT_FALSE(report->skipped);
+            EXPECT_EQ(report->converged, updates == 3);
+            const IndirectField& field = *driver.lighting()->field();
+            const float e =
+                sampleIrradiance({field, lit.layout, lit.scene, 0, 0, 0.3f, 0.3f, p, up}).x;
+            EXPECT_LT(e, before);
+            before = e;
+        }
+        EXPECT_EQ(updates, 4);
+        LitByVolumes anew(lit.scene);
+        anew.update();
+        EXPECT_TRUE(anew.part().equals(*driver.lighting()->field()->parts[0]));
+        EXPECT_TRUE(
+            driver.lighting()->update({.scene = lit.scene, .trace = lit.trace.get()}, {}).skipped);
+    }
 }
 
 // Nothing stands in an empty room: what cones take away there is the walls' own voxels, here those

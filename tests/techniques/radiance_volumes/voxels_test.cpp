@@ -3,6 +3,7 @@
 
 #include "engine/math/sampling.h"
 #include "engine/techniques/radiance_volumes/shadow_cone.h"
+#include "engine/techniques/radiance_volumes/shown_voxels.h"
 #include "engine/trace/trace_scene.h"
 #include "tests/trace/simple_scene.h"
 
@@ -10,6 +11,8 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <utility>
 
 namespace limn::voxels_test {
 namespace {
@@ -97,6 +100,35 @@ TEST(Voxels, KnowHowFarTheNearestSolidOneIs) {
     EXPECT_TRUE(isEmptyAbout(volume, {-10.f, 40.5f, 50.5f}, 19));
 }
 
+TEST(Voxels, FadeByTheRateUntilTheyArrive) {
+    const auto volume = [](int x) {
+        return volumeOf(16, [x](glm::ivec3 c) { return c.x == x || c.y == 3; });
+    };
+    const VoxelVolume target = volume(9);
+    VoxelVolume shown = volume(5);
+    for (int step = 1; step <= 5; ++step) {
+        std::optional<VoxelVolume> nearer = nearTarget(shown, target, 0.2f);
+        ASSERT_EQ(nearer.has_value(), step < 5);
+        if (!nearer)
+            break;
+        shown = std::move(*nearer);
+        for (std::uint32_t c = 0; c < target.lattice.cells(); ++c) {
+            const glm::uvec3 cell = target.lattice.place(c);
+            const int opacity = cell.y == 3   ? 255
+                                : cell.x == 9 ? 51 * step
+                                : cell.x == 5 ? 255 - 51 * step
+                                              : 0;
+            ASSERT_EQ(solidOpacity(shown, c), opacity);
+            ASSERT_EQ(shown.distance[c] == 0, opacity > 0);
+        }
+    }
+    EXPECT_FALSE(nearTarget(target, target, 0.2f)) << "at rest";
+    EXPECT_FALSE(nearTarget(volume(5), target, 1)) << "at once";
+    EXPECT_TRUE(nearTarget(volume(5), target, 1e-6f)) << "by 1 at least";
+    EXPECT_FALSE(nearTarget(volumeOf(32, [](glm::ivec3) { return true; }), target, 0.2f))
+        << "other voxels";
+}
+
 /// A cone along x over `length` voxels.
 float cone(const VoxelVolume& volume, ConeShadows shadows, float length, float sine,
            float start = 4) {
@@ -137,6 +169,25 @@ TEST(ShadowCones, AreBlockedByAWallMidway) {
             }
         std::printf("wall of %d voxels: up to %.3f pass\n", thick, double(worst));
         EXPECT_LE(worst, thick == 2 ? 0.21f : 0.255f);
+    }
+}
+
+// A thin cone meets a wall of two voxels of opacity a in three places, between voxels: what passes
+// is (1 - a / 2)^2 (1 - a).
+TEST(ShadowCones, DarkenAsAWallFadesIn) {
+    const VoxelVolume wall = wallOf(16, 8, 2);
+    VoxelVolume shown = volumeOf(32, [](glm::ivec3) { return false; });
+    float before = 1;
+    for (int step = 1; step < 5; ++step) {
+        shown = *nearTarget(shown, wall, 0.2f);
+        const float a = 0.2f * float(step), v = cone(shown, ConeShadows::Directional, 16, 1 / 50.f);
+        EXPECT_NEAR(v, (1 - a / 2) * (1 - a / 2) * (1 - a), 1e-6f);
+        EXPECT_LT(v, before);
+        before = v;
+        // The wall's two voxels lie in one coarser cell: light along x passes both.
+        const std::uint32_t coarse = shown.coarse[0][(8 * 16 + 8) * 16 + 6];
+        EXPECT_NEAR(float(opacityByte(coarse, 0)) / 255, 1 - (1 - a) * (1 - a), 0.5f / 255 + 1e-6f);
+        EXPECT_NEAR(float(opacityByte(coarse, kMeanOpacity)) / 255, a, 0.5f / 255 + 1e-6f);
     }
 }
 

@@ -21,7 +21,7 @@ LightingReport DeviceVolumes::update(const LightingInput& input, const Progress&
     Stopwatch whole;
     VolumeInputs now = volumeInputsOf(input, m_followed);
     LightingReport report{.converged = true};
-    report.skipped = m_inputs == now;
+    report.skipped = m_inputs == now && !m_voxels.fading();
     Cost cost;
     if (!report.skipped) {
         const std::uint64_t before = dispatches();
@@ -29,7 +29,8 @@ LightingReport DeviceVolumes::update(const LightingInput& input, const Progress&
         if (relight(input.scene, now, progress, cost)) {
             m_inputs = std::move(now);
             m_scene = input.scene;
-            report.bounces = 1;
+            report.converged = !m_voxels.fading();
+            report.bounces = report.converged ? 1 : 0;
         } else {
             report.converged = report.whole = false;
         }
@@ -91,19 +92,17 @@ bool DeviceVolumes::relight(const Scene& scene, const VolumeInputs& now, const P
     if (changes.maps)
         m_lights.clear();
     if (changes.voxels)
-        m_voxels.reset();
+        m_voxels.outdate();
     if (changes.caches)
         m_caches.reset();
     m_followed = now;
     if (!castMaps(scene, now, progress, cost))
         return false;
     cost.mapMs = clock.lap();
-    if (!m_voxels && now.settings.shadow != ConeShadows::None) {
-        auto voxels = std::make_shared<const VoxelVolume>(voxelsOf(scene, now.settings.voxels));
-        if (m_light.setVoxels(*voxels))
-            m_voxels = std::move(voxels);
-        else
-            m_lacks = "shadows: this device cannot bind as many voxels";
+    if (m_voxels.follow(scene, now.settings) && m_voxels.shown() &&
+        !m_light.setVoxels(*m_voxels.shown())) {
+        m_voxels.reset();
+        m_lacks = "shadows: this device cannot bind as many voxels";
     }
     cost.voxelMs = clock.lap();
     if (!m_caches)
@@ -115,7 +114,7 @@ bool DeviceVolumes::relight(const Scene& scene, const VolumeInputs& now, const P
     for (const RsmSource& source : now.sources)
         lit.push_back({lightsOf(source.shape), source.colour});
     GpuCacheLightInput input{.lights = lit,
-                             .shadows = m_voxels ? now.settings.shadow : ConeShadows::None,
+                             .shadows = m_voxels.shown() ? now.settings.shadow : ConeShadows::None,
                              .bands = now.settings.bands};
     if (now.settings.glossy && now.view) {
         input.glossy = GlossyMapShape{now.settings.tile, now.settings.fill};
@@ -171,19 +170,20 @@ std::shared_ptr<const LightSnapshot> DeviceVolumes::snapshot() const {
         return nullptr;
     const TraceScene trace(m_scene);
     VolumeInputs inputs = *m_inputs;
-    inputs.view.reset(); // the caches are the device's
+    inputs.view.reset(); // the caches are the device's, and so are the voxels
+    inputs.settings.shadow = ConeShadows::None;
     VolumeSourceCost cost;
     m_onCpu.follow(trace, m_scene, inputs, {}, cost);
     return std::make_shared<const VolumeSnapshot>(
-        LitVolume{.settings = inputs.settings,
+        LitVolume{.settings = m_inputs->settings,
                   .part = readPart(),
-                  .voxels = m_onCpu.sharedVoxels(),
+                  .voxels = m_voxels.shown(),
                   .sources = inputs.sources,
                   .lights = m_onCpu.areaLights(inputs.sources)});
 }
 
 void DeviceVolumes::describe(const Cost& cost, LightingReport& report) const {
-    describeVolume(m_caches.get(), m_voxels.get(), cost, report);
+    describeVolume(m_caches.get(), m_voxels.shown().get(), cost, report);
     std::uint64_t bytes = m_maps.bytes() + m_allocation.bytes() + m_light.bytes();
     for (const GpuAreaLights& lights : m_lights)
         bytes += lights.lights.size + lights.blocks.size;

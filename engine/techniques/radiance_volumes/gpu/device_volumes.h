@@ -55,8 +55,8 @@ private:
     GpuAreaLightMaps m_maps;
     GpuAllocation m_allocation;
     GpuCacheLight m_light;
-    std::shared_ptr<const VoxelVolume> m_voxels; ///< null: none yet, or the device cannot bind them
-    std::vector<GpuAreaLights> m_lights;         ///< each shape once
+    ShownVoxels m_voxels;                ///< none where the device cannot bind them
+    std::vector<GpuAreaLights> m_lights; ///< each shape once
     std::shared_ptr<const CacheAllocation> m_caches;
     std::shared_ptr<const gpu::Buffer> m_address; ///< of m_caches
     std::shared_ptr<const GpuVolume> m_volume;

@@ -25,12 +25,12 @@ constexpr std::array<VkDescriptorType, VOLUME_CACHE_BINDINGS> kCacheTypes = {
 static_assert(VOLUME_SHADOWS_DIRECTIONAL == std::uint32_t(ConeShadows::Directional) &&
               VOLUME_SHADOWS_PUBLISHED == std::uint32_t(ConeShadows::Published));
 
-/// All levels of a volume, a word for each cell: bytes of what light along x, y and z meets, and,
-/// of the finest level, the distance, of others the mean.
+/// All levels of a volume, a word for each cell: bytes of what light along x, y and z meets, and of
+/// the mean; of the finest level, the opacity and, in the highest byte, the distance.
 std::vector<std::uint32_t> wordsOf(const VoxelVolume& voxels) {
     std::vector<std::uint32_t> words;
     for (std::size_t c = 0; c < voxels.distance.size(); ++c)
-        words.push_back(std::uint32_t(voxels.distance[c]) << 24);
+        words.push_back(std::uint32_t(voxels.distance[c]) << 24 | solidOpacity(voxels, c));
     for (const VoxelLevel& level : voxels.coarse)
         words.insert(words.end(), level.begin(), level.end());
     return words;

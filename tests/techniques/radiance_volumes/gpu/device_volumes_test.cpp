@@ -111,6 +111,32 @@ TEST_F(DeviceVolumesTest, LightsCachesAsTheCpuDoesByEachKindOfLight) {
         }
 }
 
+TEST_F(DeviceVolumesTest, LetsVoxelsFadeAsTheCpuDoes) {
+    Scene lit = room(LightKind::Point);
+    lit.technique.settings["radiance-volumes.rate"] = 0.3;
+    LitByVolumes cpu(lit);
+    cpu.update();
+    light(lit);
+    EXPECT_TRUE(update().converged);
+    scene.instances[1].toWorld[3].z += 1.f;
+    cpu.scene = scene;
+    cpu.retrace();
+    for (int k = 0; k < 4; ++k) { // by 77 of 255 each
+        EXPECT_EQ(update().converged, k == 3);
+        EXPECT_EQ(cpu.update().converged, k == 3);
+        const IndirectField onDevice = field();
+        const Difference d =
+            differenceOf(partOf(onDevice).light.harmonics, cpu.part().light.harmonics);
+        EXPECT_LT(d.worst, 0.02);
+        EXPECT_LT(d.rms, 1e-3);
+    }
+    EXPECT_TRUE(update().skipped);
+    const std::vector<glm::vec3> arrived = partOf(field()).light.harmonics;
+    light(Scene(scene));
+    update();
+    EXPECT_EQ(partOf(field()).light.harmonics, arrived);
+}
+
 TEST_F(DeviceVolumesTest, PlacesCachesByWhatTheViewShows) {
     const Viewpoint v = view();
     const Scene lit = room(LightKind::Point);
