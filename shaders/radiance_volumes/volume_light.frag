@@ -72,6 +72,8 @@ CacheSums readCache(uint cache, float irradiance[kCoefficients], float lobe[kCoe
         sums.irradiance += irradiance[i] * c;
         sums.lobe += lobe[i] * c;
     }
+    if (volume.clamped == 1u)
+        sums.irradiance = max(sums.irradiance, 0.0);
     if (volume.tile > 0u && kView == VIEW_LIT) {
         sums.lobe = vec3(0);
         for (uint t = 0u; t < texels.count; ++t) {

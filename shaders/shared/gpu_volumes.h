@@ -69,7 +69,8 @@ struct GpuCacheGrid {
 struct GpuCacheGrids {
     GpuCacheGrid grid[VOLUME_MAX_GRIDS]; // the finest first
     vec3 eye; uint count;                // of the maps; grids
-    float transition; uint tile, pad0, pad1; // cells; texels along a map's side, 0: no maps
+    float transition; uint tile; // cells; texels along a map's side, 0: no maps
+    uint clamped, pad0;          // 1: each cache's irradiance is clamped to 0
 };
 
 /// A virtual area light. Those of a block lie one behind the other, dark ones too.

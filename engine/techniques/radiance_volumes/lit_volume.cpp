@@ -22,9 +22,19 @@ struct CacheReading {
 std::map<std::uint32_t, CacheReading> byCache(const VolumePart& part, const FieldReading& reading) {
     std::map<std::uint32_t, CacheReading> caches;
     for (const FieldReading::PartNumber& number : reading.partNumbers) {
+        const auto addHarmonic = [&](std::size_t index, glm::vec3 weight) {
+            caches[std::uint32_t(index / part.coefficients())]
+                .harmonics[index % part.coefficients()] += weight;
+        };
         if (number.index < part.firstTexel()) {
-            const auto cache = std::uint32_t(number.index / part.coefficients());
-            caches[cache].harmonics[number.index % part.coefficients()] += number.weight;
+            addHarmonic(number.index, number.weight);
+            continue;
+        }
+        if (number.index >= part.firstColour()) {
+            const std::size_t colour = number.index - part.firstColour();
+            glm::vec3 weight(0);
+            weight[int(colour % 3)] = number.weight[int(colour % 3)];
+            addHarmonic(colour / 3, weight);
             continue;
         }
         const std::size_t texel = number.index - part.firstTexel();

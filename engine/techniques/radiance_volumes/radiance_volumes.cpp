@@ -69,6 +69,7 @@ private:
         auto part = std::make_shared<VolumePart>();
         part->caches = m_sources.sharedCaches();
         part->bands = settings.bands;
+        part->clamped = settings.clamp;
         if (settings.glossy && now.view) {
             part->glossy = GlossyMapShape{settings.tile, settings.fill};
             part->eye = now.view->camera.eye;

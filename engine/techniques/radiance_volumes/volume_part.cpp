@@ -27,6 +27,22 @@ void VolumePart::addHarmonics(const FieldPoint& point, std::span<const float> we
                 {std::uint32_t(found.cache[k] * coefficients() + i), weights[i] * found.weight[k]});
 }
 
+/// Leaves out the colours of a cache whose sum is below 0.
+void VolumePart::addClamped(const FieldPoint& point, std::span<const float> weights,
+                            FieldTaps& taps) const {
+    const CacheLookup found = lookUp(point);
+    for (std::size_t k = 0; k < found.count; ++k) {
+        const std::size_t first = found.cache[k] * coefficients();
+        glm::vec3 value(0);
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            value += weights[i] * light.harmonics[first + i];
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; value[int(c)] > 0 && i < weights.size(); ++i)
+                taps.push_back({std::uint32_t(firstColour() + 3 * (first + i) + c),
+                                weights[i] * found.weight[k]});
+    }
+}
+
 void VolumePart::irradianceTaps(const FieldPoint& point, FieldTaps& taps) const {
     float weights[kIrradianceBands * kIrradianceBands];
     shBasis(int(bands), point.normal, weights);
@@ -34,7 +50,10 @@ void VolumePart::irradianceTaps(const FieldPoint& point, FieldTaps& taps) const 
     for (int l = 0, i = 0; l < int(bands); ++l)
         for (; i < (l + 1) * (l + 1); ++i)
             weights[i] *= factors[std::size_t(l)];
-    addHarmonics(point, {weights, coefficients()}, taps);
+    if (clamped)
+        addClamped(point, {weights, coefficients()}, taps);
+    else
+        addHarmonics(point, {weights, coefficients()}, taps);
 }
 
 void VolumePart::radianceTaps(const FieldPoint& point, glm::vec3 direction, FieldTaps& taps) const {
@@ -70,15 +89,23 @@ void VolumePart::lobeTaps(const FieldPoint& point, glm::vec3 direction, int lobe
 
 glm::vec3 VolumePart::sum(std::span<const FieldTap> taps) const {
     glm::vec3 sum(0);
-    for (const FieldTap& tap : taps)
-        sum += tap.weight * (tap.index < firstTexel() ? light.harmonics[tap.index]
-                                                      : light.glossy[tap.index - firstTexel()]);
+    for (const FieldTap& tap : taps) {
+        if (tap.index < firstTexel()) {
+            sum += tap.weight * light.harmonics[tap.index];
+        } else if (tap.index < firstColour()) {
+            sum += tap.weight * light.glossy[tap.index - firstTexel()];
+        } else {
+            const std::size_t colour = tap.index - firstColour();
+            const int c = int(colour % 3);
+            sum[c] += tap.weight * light.harmonics[colour / 3][c];
+        }
+    }
     return sum;
 }
 
 bool VolumePart::equals(const FieldPart& other) const {
     const auto* o = dynamic_cast<const VolumePart*>(&other);
-    return o && o->bands == bands && o->caches->grids == caches->grids &&
+    return o && o->bands == bands && o->clamped == clamped && o->caches->grids == caches->grids &&
            o->caches->address == caches->address && o->light.harmonics == light.harmonics &&
            o->light.glossy == light.glossy && o->eye == eye;
 }

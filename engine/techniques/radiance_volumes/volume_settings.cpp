@@ -7,7 +7,7 @@ namespace limn {
 
 static constexpr std::array<const char*, 3> kShadows = {"none", "directional", "published"};
 
-constinit const std::array<TechniqueSetting, 15> kVolumeSettings = {
+constinit const std::array<TechniqueSetting, 16> kVolumeSettings = {
     {{.setting = {.key = "radiance-volumes.read",
                   .label = "Area lights along a side",
                   .tooltip =
@@ -132,6 +132,16 @@ constinit const std::array<TechniqueSetting, 15> kVolumeSettings = {
                   .invalidates = Invalidates::Light},
       .range = {0, 1},
       .usual = 0,
+      .whole = true},
+     {.setting =
+          {.key = "radiance-volumes.clamp",
+           .label = "Clamp each cache",
+           .tooltip =
+               "On: irradiance below 0 of a cache, which few bands cause, counts as 0 before "
+               "caches are mixed, which adds light. Off: only their mean is clamped",
+           .invalidates = Invalidates::Light},
+      .range = {0, 1},
+      .usual = 0,
       .whole = true}}};
 
 VolumeSettings volumeSettingsOf(const TechniqueChoice& choice) {
@@ -151,7 +161,8 @@ VolumeSettings volumeSettingsOf(const TechniqueChoice& choice) {
             .glossy = value(11) > 0,
             .tile = std::bit_floor(whole(12)),
             .fill = whole(13),
-            .freeze = value(14) > 0};
+            .freeze = value(14) > 0,
+            .clamp = value(15) > 0};
 }
 
 } // namespace limn

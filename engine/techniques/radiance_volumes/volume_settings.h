@@ -12,7 +12,7 @@ namespace limn {
 enum class ConeShadows : std::uint8_t { None, Directional, Published };
 
 /// Settings of radiance volumes, in the order of VolumeSettings.
-extern const std::array<TechniqueSetting, 15> kVolumeSettings;
+extern const std::array<TechniqueSetting, 16> kVolumeSettings;
 
 /// The settings' values. Those that must be powers of two are.
 struct VolumeSettings {
@@ -25,6 +25,7 @@ struct VolumeSettings {
     bool glossy = false;
     std::uint32_t tile = 0, fill = 0;
     bool freeze = false;
+    bool clamp = false; ///< irradiance of each cache, not of their mean
     bool operator==(const VolumeSettings&) const = default;
 };
 

@@ -480,5 +480,31 @@ TEST(RadianceVolumes, ExplainLightExactlyByLightAndByObject) {
     }
 }
 
+// Light comes from a small patch of the wall at y = 1: caches above and below it are next to each
+// other. One whose irradiance is clamped to 0 sends nothing to the point.
+TEST(RadianceVolumes, ExplainLightOfClampedCachesExactly) {
+    Scene scene = shadowOfABlock();
+    scene.lights[0].outerAngle = 0.05f;
+    LitByVolumes mixed(scene), clamped(scene);
+    clamped.set("clamp", 1);
+    mixed.update();
+    clamped.update();
+    int differing = 0;
+    for (const float y : {0.8f, 0.85f, 1.15f, 1.2f})
+        for (const glm::vec3 n : {glm::vec3(0, 1, 0), glm::vec3(0, -1, 0)}) {
+            const glm::vec3 p(2.9f, y, 0.1f);
+            const glm::vec3 e = clamped.irradiance(p, n);
+            FieldReading reading;
+            addIrradiance(clamped.point(p, n), glm::vec3(1), reading);
+            const Explanation why = clamped.lighting->explain(clamped.scene, reading, {});
+            expectNear(totalOf(why.byOrigin), e, 2e-5f);
+            expectNear(totalOf(why.bySender), e, 2e-5f);
+            const float mean = mixed.irradiance(p, n).x;
+            EXPECT_GE(e.x, mean * (1 - 1e-5f));
+            differing += e.x > 1.01f * mean ? 1 : 0;
+        }
+    EXPECT_EQ(differing, 4);
+}
+
 } // namespace
 } // namespace limn::radiance_volumes_test

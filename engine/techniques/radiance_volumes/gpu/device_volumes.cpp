@@ -127,6 +127,7 @@ bool DeviceVolumes::relight(const Scene& scene, const VolumeInputs& now, const P
     m_eye = input.eye;
     auto volume = std::make_shared<GpuVolume>();
     volume->grids = gpuCacheGrids(m_caches->grids, m_glossy, m_eye);
+    volume->grids.clamped = now.settings.clamp ? 1 : 0;
     volume->bands = now.settings.bands;
     volume->harmonics = std::move(light.harmonics);
     volume->glossy = std::move(light.glossy);
@@ -141,6 +142,7 @@ std::shared_ptr<const VolumePart> DeviceVolumes::readPart() const {
     auto part = std::make_shared<VolumePart>();
     part->caches = m_caches;
     part->bands = m_volume->bands;
+    part->clamped = m_volume->grids.clamped == 1;
     part->light.harmonics.resize(m_caches->caches() * part->coefficients());
     if (m_volume->harmonics)
         gpu::readBuffer(m_device, m_volume->harmonics,

@@ -89,6 +89,7 @@ std::shared_ptr<LightPass> uploadVolumePart(gpu::Device& device, Viewport& viewp
     volume->address = std::make_shared<const gpu::Buffer>(std::move(address));
     volume->grids =
         gpuCacheGrids(part->caches->grids, volume->glossy ? part->glossy : std::nullopt, part->eye);
+    volume->grids.clamped = part->clamped ? 1 : 0;
     return std::make_shared<VolumePass>(device, viewport, std::move(volume));
 }
 

@@ -111,6 +111,32 @@ TEST_F(VolumePassTest, DrawsTheLightOfTheCpu) {
     }
 }
 
+// The spot's light comes through the block, from behind its sides: there, caches whose irradiance
+// is below 0 lie next to others.
+TEST_F(VolumePassTest, DrawsCachesThatAreClamped) {
+    const Viewpoint view = viewpointOf(camera(), {kWidth, kHeight});
+    Scene scene = room();
+    scene.lights.erase(scene.lights.begin());
+    LitByVolumes lit(scene);
+    lit.set("shadow", 0);
+    ImageF clamped, mixed;
+    for (const bool clamp : {false, true}) {
+        lit.set("clamp", clamp ? 1 : 0);
+        lit.update(&view);
+        (clamp ? clamped : mixed) = onCpu(lit, [&](const Ray&, const Hit& hit) {
+            return lit.irradiance(hit.position, hit.geometricNormal * (hit.frontFace ? 1.f : -1.f));
+        });
+    }
+    expectSame(drawn(lit, View::Irradiance), clamped, 2e-5f, 2e-6f, "each cache clamped");
+    float brightest = 0, added = 0;
+    for (std::size_t i = 0; i < mixed.rgb.size(); ++i) {
+        brightest = std::max(brightest, mixed.rgb[i].z);
+        added = std::max(added, clamped.rgb[i].z - mixed.rgb[i].z);
+    }
+    std::printf("clamping each cache adds up to %.2g of the largest\n", double(added / brightest));
+    EXPECT_GT(added, 1e-3f * brightest);
+}
+
 TEST_F(VolumePassTest, DrawsReflectionsOfTheCpu) {
     const Viewpoint view = viewpointOf(camera(), {kWidth, kHeight});
     std::vector<glm::vec3> before;
