@@ -3,12 +3,14 @@
 #include "app/commands/output_file.h"
 #include "app/commands/progress_line.h"
 #include "app/commands/scene_options.h"
+#include "app/commands/tone_options.h"
 
 #include "engine/core/parallel.h"
 #include "engine/files/image_file.h"
 #include "engine/json/json.h"
 #include "engine/measure/compare.h"
 #include "engine/reference/light_tracing.h"
+#include "engine/scene/tone_map.h"
 
 #include <chrono>
 #include <memory>
@@ -22,6 +24,7 @@ namespace {
 struct ReferenceCommand {
     SceneOptions scene;
     CameraOptions camera;
+    ToneOptions tone;
     std::string view = "lit", output;
     ReferenceOptions reference;
     int threads = 0;
@@ -55,7 +58,7 @@ Json report(const ReferenceResult& r, const std::string& view, double seconds) {
 
 Exit runReference(ReferenceCommand& o) {
     if (const Result<void> writable =
-            checkOutputFile(o.output, {".exr"}, {o.scene.scene, o.scene.sky});
+            checkOutputFile(o.output, {".exr", ".png"}, {o.scene.scene, o.scene.sky});
         !writable)
         return failed(writable.error().message);
     if (o.lightTracing && !canBeLightTraced(viewOf(o.view)))
@@ -80,7 +83,11 @@ Exit runReference(ReferenceCommand& o) {
                                   : renderReference(trace, o.reference, progressOnStderr());
     endProgressLine();
     const Json json = report(r, o.view, secondsSince(start));
-    if (const Result<void> written = writeExr(o.output, r.image); !written)
+    const Result<void> written =
+        o.output.ends_with(".png")
+            ? writePng(o.output, toneMappedImage(r.image, tonemapOf(o.tone), o.tone.exposureEv))
+            : writeExr(o.output, r.image);
+    if (!written)
         return failed(written.error().message);
     if (o.json)
         fmt::print("{}\n", json.dump());
@@ -109,7 +116,11 @@ void addReferenceCommand(Command& app) {
     command.option("--seed", o->reference.seed,
                    "Seed of the random numbers; another seed gives other noise");
     command.option("--threads", o->threads, "Threads to use; 0: all").within(0, 1024);
-    command.option("-o,--output", o->output, "Linear 32-bit image to write, .exr").required();
+    command
+        .option("-o,--output", o->output,
+                "Picture to write, .exr (linear, 32 bits) or .png (tone-mapped)")
+        .required();
+    addToneOptions(command, o->tone);
     command.flag("--light-tracing", o->lightTracing,
                  "Follow photons from the lights, through mirrors and glass too, instead of paths "
                  "from the eye: shows caustics. --spp photons a pixel; --bounces counts diffuse "

@@ -8,6 +8,7 @@
 #include "app/commands/render_image.h"
 #include "app/commands/scene_options.h"
 #include "app/commands/technique_options.h"
+#include "app/commands/tone_options.h"
 
 #include "engine/core/log.h"
 #include "engine/files/image_file.h"
@@ -33,9 +34,8 @@ struct RenderCommand {
     CameraOptions camera;
     OverlayFlags overlay;
     TechniqueOptions technique;
-    std::string bake, output, view = "lit", inspection = "none", tonemap = "aces", device = "auto",
-                              relight = "auto";
-    float exposureEv = 0;
+    ToneOptions tone;
+    std::string bake, output, view = "lit", inspection = "none", device = "auto", relight = "auto";
     std::uint32_t samplesPerPixel = kFileSamples.perPixel;
     std::uint32_t gatherRays = kFileSamples.gatherRays;
     std::uint32_t nearRays = kFileSamples.nearRays;
@@ -216,8 +216,8 @@ RenderRequest requestOf(const RenderCommand& options, const Scene& scene, const 
     request.camera = camera;
     request.width = options.camera.width;
     request.height = options.camera.height;
-    request.tonemap = Tonemap(indexOf(kTonemapNames, options.tonemap));
-    request.exposureEv = options.exposureEv;
+    request.tonemap = tonemapOf(options.tone);
+    request.exposureEv = options.tone.exposureEv;
     request.samplesPerPixel = options.samplesPerPixel;
     request.nearRays = options.nearRays;
     request.gatherRays = options.gatherRays;
@@ -410,10 +410,7 @@ void addRenderCommand(Command& app) {
                 "Draw over a .png to find faults: the edges of all triangles, or pixels with "
                 "a NaN or Inf")
         .oneOf(namesIn(kInspectionNames));
-    command.option("--exposure", options->exposureEv, "Exposure before tone mapping [EV]")
-        .within(-64.0, 64.0);
-    command.option("--tonemap", options->tonemap, "Tone-mapping curve of a .png")
-        .oneOf(namesIn(kTonemapNames));
+    addToneOptions(command, options->tone);
     command.option("--device", options->device,
                    "What draws: auto, cpu, or part of a Vulkan device's name");
     command

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The contract that scripts rely on: exit codes, one line for a failure, one JSON object on stdout.
+#include "engine/files/image_file.h"
 #include "engine/scene/bake_settings.h"
+#include "engine/scene/tone_map.h"
 #include "tests/app/command_line.h"
 
 #include <cmath>
@@ -67,7 +69,7 @@ TEST_F(CommandLine, NamesTheSceneThatItCannotOpen) {
 
 TEST_F(CommandLine, RefusesAnOutputBeforeTheWork) {
     expectRefusal("reference cornell --spp 1000000 -o " + path("no/such/folder/x.exr"), "x.exr");
-    expectRefusal("reference cornell --spp 1000000 -o " + path("x.png"), ".exr");
+    expectRefusal("reference cornell --spp 1000000 -o " + path("x.jpg"), ".exr");
     expectRefusal("reference cornell --light-tracing --view albedo -o " + path("x.exr"),
                   "--light-tracing");
     expectRefusal("reference cornell --spp 1000000 -o " + path(""), "folder");
@@ -259,6 +261,9 @@ TEST_F(CommandLine, ReferenceAndComparePrintOneJsonObject) {
     EXPECT_NEAR(two["nrmse"].get<double>() / one, std::sqrt(0.5), 0.1);
     EXPECT_NEAR(two["reference_noise"].get<double>() / one, 0.5, 0.1);
     expectRefusal("compare " + b + " " + c + " --reference2 nowhere.exr", "nowhere.exr");
+    const std::string e = path("e.png");
+    json(start + "--spp 4 --exposure 1 --tonemap agx -o " + e);
+    EXPECT_EQ(readPng(e)->rgba, toneMappedImage(*readFloatImage(a), Tonemap::Agx, 1).rgba);
 }
 
 TEST_F(CommandLine, APresetSetsCountsAndOtherOptionsReplaceSingleOnes) {
