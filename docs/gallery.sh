@@ -111,6 +111,20 @@ render volume-caches "Caches of dynamic radiance volumes, by grid: they lie arou
 render volume-shadow "Irradiance by dynamic radiance volumes with the published cones, which the sender's own wall darkens" cornell \
     "${square[@]}" "${lamp[@]}" --technique radiance-volumes --set radiance-volumes.shadow=2 --view irradiance "${on_cpu[@]}"
 
+# Cornell with a floor of rough metal, without its panel and its short block.
+cp projects/cornell/cornell.bin "$work"
+sed -e '/"name":"cornell","nodes"/s/5,6,7,8/6,8/' -e '/"name":"Floor","primitives"/s/"material":0/"material":4/' \
+    -e '/{"name":"Panel","pbr/s|$|,{"name":"Metal","pbrMetallicRoughness":{"baseColorFactor":[0.8,0.8,0.8,1],"roughnessFactor":0.3}}|' \
+    projects/cornell/cornell.gltf >"$work/polished.gltf"
+floor=("$work/polished.gltf" --light 'spot pos=0,4.5,2.6 dir=0,0.2,-1 inner=35 outer=45 cd=40' --eye 0.6,4.4,4.6 --target 0.2,0.2,0 --fov 66
+    --width 240 --height 200 --exposure 2)
+render volume-floor "A floor of metal reflects the maps of radiance volumes, with lobes as published" "${floor[@]}" --technique radiance-volumes \
+    --set radiance-volumes.glossy=1 "${on_cpu[@]}"
+render volume-floor-microfacet "The same with lobes of a microfacet model" "${floor[@]}" --technique radiance-volumes \
+    --set radiance-volumes.glossy=2 "${on_cpu[@]}"
+"$limn" reference "${floor[@]}" --bounces 1 --spp 512 -o "$out/volume-floor-reference.png" >"$work/volume-floor-reference.txt"
+show volume-floor-reference "The same path-traced, with one bounce"
+
 section "The editor" "[The editor](editor.md) says how to work with it."
 build/release/journeys --gtest_filter='Gallery.*'
 cp build/journeys/GalleryOfWindows/*.png "$out/"

@@ -24,7 +24,7 @@ void addBlock(uint block, float visible, vec3 p, mat3 frame, uint first) {
         const vec3 d = way * (reach > 0.0 ? 1.0 / reach : 0.0);
         const float arrives = 0.31830989 * max(-dot(d, a.normal), 0.0) * visible / max(squared + a.disc, 1e-37);
         float factor;
-        const uint texel = first + glossySplat(maps.tile, frame, d, factor);
+        const uint texel = first + glossySplat(maps.tile, maps.microfacet == 1u, frame, d, factor);
         if (arrives > 0.0)
             write(texel, read(texel) + a.flux * maps.colour * (arrives * factor));
     }

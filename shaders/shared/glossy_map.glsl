@@ -28,7 +28,7 @@ vec2 squareOfHemisphere(vec3 d) {
 
 /// glossySplat(): the texel of the finest level that light from unit `direction` adds to, and the factor of its
 /// perpendicular irradiance.
-uint glossySplat(uint tile, mat3 frame, vec3 direction, out float factor) {
+uint glossySplat(uint tile, bool microfacet, mat3 frame, vec3 direction, out float factor) {
     const vec3 sum = direction + frame[2];
     const float reach = length(sum);
     factor = 0.0;
@@ -36,7 +36,8 @@ uint glossySplat(uint tile, mat3 frame, vec3 direction, out float factor) {
         return 0u;
     const vec3 h = sum / reach;
     const uvec2 texel = min(uvec2(squareOfHemisphere(h * frame) * float(tile)), uvec2(tile - 1u));
-    factor = dot(h, direction) * (float(tile * tile) + 7.0) / (8.0 * kGlossyPi);
+    const float cosine = dot(h, direction), exponent = float(tile * tile) - 1.0;
+    factor = (microfacet ? (exponent + 2.0) / max(cosine, 1.0 / float(tile)) : cosine * (exponent + 8.0)) / (8.0 * kGlossyPi);
     return texel.y * tile + texel.x;
 }
 

@@ -128,6 +128,7 @@ struct GpuVolumeMaps {
     vec3 eye; uint tile;              // texels along a map's side
     vec3 colour; uint caches;
     uint blocks, blockLights, fill, first; // levels that are filled; 1: the maps are cleared
+    uint microfacet, pad0, pad1, pad2;     // 1: lobes are those of GlossyMapShape::microfacet
 };
 // clang-format on
 
@@ -136,7 +137,7 @@ static_assert(sizeof(GpuVolumeMap) == 112);
 static_assert(sizeof(GpuAreaLight) == 64);
 static_assert(sizeof(GpuPlaceSums) == 20);
 static_assert(sizeof(GpuVolumeLight) == 64);
-static_assert(sizeof(GpuVolumeMaps) == 48);
+static_assert(sizeof(GpuVolumeMaps) == 64);
 static_assert(sizeof(GpuCacheGrids) == 4 * 64 + 32);
 } // namespace limn::shared
 #endif

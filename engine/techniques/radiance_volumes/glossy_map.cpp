@@ -128,7 +128,11 @@ GlossySplat glossySplat(const GlossyMapShape& shape, const glm::mat3& frame, glm
     const glm::vec2 p = squareOfHemisphere(h * frame) * float(shape.tile);
     const glm::uvec2 texel = glm::min(glm::uvec2(p), glm::uvec2(shape.tile - 1));
     const float exponent = float(shape.tile) * float(shape.tile) - 1;
-    return {texel.y * shape.tile + texel.x, glm::dot(h, direction) * (exponent + 8) / (8 * kPi)};
+    const float cosine = glm::dot(h, direction);
+    const float factor = shape.microfacet
+                             ? (exponent + 2) / std::max(cosine, 1 / float(shape.tile)) // a texel
+                             : cosine * (exponent + 8);
+    return {texel.y * shape.tile + texel.x, factor / (8 * kPi)};
 }
 
 void completeGlossyMap(const GlossyMapShape& shape, std::span<glm::vec3> texels) {

@@ -22,6 +22,10 @@ namespace limn {
 struct GlossyMapShape {
     std::uint32_t tile = 16; ///< texels along a side, a power of two
     std::uint32_t fill = 0;  ///< levels whose dark texels are filled
+    /// The factor is (m + 2) / (8 pi h . w), so that lobes reflect as much of even light at all
+    /// angles; the published one reflects cos^2 of it. Kelemen, Szirmay-Kalos. A Microfacet Based
+    /// Coupled Specular-Matte BRDF Model with Importance Sampling. 2001, without the Fresnel term.
+    bool microfacet = false;
 
     std::uint32_t levels() const;
     std::size_t firstTexel(std::uint32_t level) const; ///< of all levels

@@ -71,7 +71,7 @@ private:
         part->bands = settings.bands;
         part->clamped = settings.clamp;
         if (settings.glossy && now.view) {
-            part->glossy = GlossyMapShape{settings.tile, settings.fill};
+            part->glossy = GlossyMapShape{settings.tile, settings.fill, settings.microfacet};
             part->eye = now.view->camera.eye;
         }
         lit.part = part;

@@ -99,13 +99,15 @@ constinit const std::array<TechniqueSetting, 16> kVolumeSettings = {
                   .invalidates = Invalidates::Light},
       .range = {0, 1},
       .usual = 0},
-     {.setting = {.key = "radiance-volumes.glossy",
-                  .label = "Maps for reflections",
-                  .tooltip =
-                      "On: each cache keeps a map of its light for glossy surfaces. Off: these "
-                      "reflect its harmonics",
-                  .invalidates = Invalidates::Light},
-      .range = {0, 1},
+     {.setting =
+          {.key = "radiance-volumes.glossy",
+           .label = "Maps for reflections",
+           .tooltip =
+               "0: glossy surfaces reflect the harmonics of caches. 1: each cache keeps a map "
+               "of its light for them, which reflects less the more obliquely one looks. 2: "
+               "the same with lobes of a microfacet model, which do not",
+           .invalidates = Invalidates::Light},
+      .range = {0, 2},
       .usual = 0,
       .whole = true},
      {.setting = {.key = "radiance-volumes.tile",
@@ -159,6 +161,7 @@ VolumeSettings volumeSettingsOf(const TechniqueChoice& choice) {
             .voxels = std::bit_floor(whole(9)),
             .rate = float(value(10)),
             .glossy = value(11) > 0,
+            .microfacet = value(11) > 1,
             .tile = std::bit_floor(whole(12)),
             .fill = whole(13),
             .freeze = value(14) > 0,

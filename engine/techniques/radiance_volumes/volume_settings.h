@@ -22,7 +22,7 @@ struct VolumeSettings {
     ConeShadows shadow = ConeShadows::None;
     std::uint32_t voxels = 0;
     float rate = 0; ///< change of a voxel's opacity in an update, in [0, 1]; 0: at once
-    bool glossy = false;
+    bool glossy = false, microfacet = false; ///< maps for reflections; GlossyMapShape::microfacet
     std::uint32_t tile = 0, fill = 0;
     bool freeze = false;
     bool clamp = false; ///< irradiance of each cache, not of their mean

@@ -88,6 +88,47 @@ TEST(GlossyMaps, AreBrightestAtTheHalfVector) {
     EXPECT_EQ(lookUpGlossy(shape, frame, -frame[2], 0.5f).count, 0U);
 }
 
+/// A map of radiance 1 from everywhere.
+std::vector<glm::vec3> evenLight(const GlossyMapShape& shape, const glm::mat3& frame) {
+    std::vector<glm::vec3> texels(shape.texels(), glm::vec3(0));
+    const DirectionSet d(500000, true, 0);
+    for (std::uint32_t k = 0; k < d.count; ++k) {
+        const GlossySplat splat = glossySplat(shape, frame, d[k]);
+        texels[splat.texel] += 4 * kPi / float(d.count) * splat.factor;
+    }
+    completeGlossyMap(shape, texels);
+    return texels;
+}
+
+// Light from a cone of half vectors dh at the angle t covers 4 cos t dh. As published, each part of
+// it counts cos t (m + 8) / 8 pi: a texel of 2 pi / (m + 1) reflects cos^2 t (m + 8) / (m + 1) of
+// even light. Of the microfacet model it is (m + 2) / (m + 1) at all angles.
+TEST(GlossyMaps, ReflectTheSquaredCosineOfEvenLightOrAllOfIt) {
+    const glm::mat3 frame = glossyFrame({1, 2, -0.5f});
+    const GlossyMapShape published{.tile = 16}, microfacet{.tile = 16, .microfacet = true};
+    const std::vector<glm::vec3> dim = evenLight(published, frame),
+                                 full = evenLight(microfacet, frame);
+    for (const float angle : {0.f, 30.f, 45.f, 60.f}) {
+        const float t = angle * kPi / 180, c = std::cos(t);
+        const GlossyLookup found =
+            lookUpGlossy(published, frame, frame * glm::vec3(std::sin(t), 0, c), 0.1f);
+        float reflected = 0, all = 0, squared = 0; // the mean cos^2 over the texels that are read
+        for (std::size_t k = 0; k < found.count; ++k) {
+            reflected += found.weight[k] * dim[found.texel[k]].x;
+            all += found.weight[k] * full[found.texel[k]].x;
+            for (std::uint32_t s = 0; s < 64; ++s) {
+                const glm::vec2 p(float(found.texel[k] % 16) + (float(s % 8) + 0.5f) / 8,
+                                  float(found.texel[k] / 16) + (float(s / 8) + 0.5f) / 8);
+                const float z = hemisphereOfSquare(p / 16.f).z;
+                squared += found.weight[k] * z * z / 64;
+            }
+        }
+        EXPECT_NEAR(squared, c * c, 0.02f);
+        EXPECT_NEAR(reflected, squared * 263 / 256, 0.005f) << angle;
+        EXPECT_NEAR(all, 257 / 256.f, 0.01f) << angle;
+    }
+}
+
 TEST(GlossyMaps, KeepTheirLightWhereHolesAreFilled) {
     for (const std::uint32_t fill : {0U, 1U, 3U, 5U}) {
         const GlossyMapShape shape{.tile = 16, .fill = fill};

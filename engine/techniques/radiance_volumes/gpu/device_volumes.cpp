@@ -117,7 +117,8 @@ bool DeviceVolumes::relight(const Scene& scene, const VolumeInputs& now, const P
                              .shadows = m_voxels.shown() ? now.settings.shadow : ConeShadows::None,
                              .bands = now.settings.bands};
     if (now.settings.glossy && now.view) {
-        input.glossy = GlossyMapShape{now.settings.tile, now.settings.fill};
+        input.glossy =
+            GlossyMapShape{now.settings.tile, now.settings.fill, now.settings.microfacet};
         input.eye = now.view->camera.eye;
     }
     GpuCachesLight light = m_light.light(m_caches->places, input);

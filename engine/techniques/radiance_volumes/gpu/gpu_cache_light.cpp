@@ -128,7 +128,8 @@ void GpuCacheLight::recordMaps(VkCommandBuffer cmd, const Bound& bound,
                                   .blocks = lit ? lit->lights->blockCount : 0,
                                   .blockLights = lit ? lit->lights->blockSize : 0,
                                   .fill = input.glossy->fill,
-                                  .first = first ? 1U : 0U};
+                                  .first = first ? 1U : 0U,
+                                  .microfacet = input.glossy->microfacet ? 1U : 0U};
     const auto pushed = std::as_bytes(std::span(&constants, 1));
     m_dispatches += gpu::dispatch(m_device, cmd, m_maps.handle, m_layout.handle, bound.set, pushed,
                                   gpu::groups(bound.caches, VOLUME_CACHE_LANES));

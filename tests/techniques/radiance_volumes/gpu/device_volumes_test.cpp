@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 #include <utility>
 
 namespace limn::device_volumes_test {
@@ -215,9 +216,9 @@ TEST_F(DeviceVolumesTest, MakesMapsForReflectionsAsTheCpuDoes) {
     Scene lit = room(LightKind::Point);
     lit.lights.push_back(lit.lights[0]);
     lit.lights[1].position = {0.7231f, 1.8123f, 3.9137f};
-    lit.technique.settings["radiance-volumes.glossy"] = 1;
     lit.technique.settings["radiance-volumes.caches"] = 200;
-    for (const auto& [tile, fill] : {std::pair(16, 0), std::pair(32, 5)}) {
+    for (const auto& [glossy, tile, fill] : {std::tuple(1, 16, 0), std::tuple(2, 32, 5)}) {
+        lit.technique.settings["radiance-volumes.glossy"] = glossy;
         lit.technique.settings["radiance-volumes.tile"] = tile;
         lit.technique.settings["radiance-volumes.fill"] = fill;
         LitByVolumes cpu(lit);
