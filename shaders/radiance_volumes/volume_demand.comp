@@ -36,6 +36,10 @@ void add(uint g, uvec3 node, vec3 p, vec3 normal) {
     atomicAdd(sums[i].x, n.x);
     atomicAdd(sums[i].y, n.y);
     atomicAdd(sums[i].z, n.z);
+    const ivec3 shift = ivec3(round((p - nodePlace(g, node)) / volume.grid[g].cell * VOLUME_PLACE_UNIT));
+    atomicAdd(sums[i].shiftX, shift.x);
+    atomicAdd(sums[i].shiftY, shift.y);
+    atomicAdd(sums[i].shiftZ, shift.z);
     atomicAdd(sums[i].height, int(round(height * VOLUME_PLACE_UNIT)));
 }
 

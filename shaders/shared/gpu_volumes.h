@@ -105,6 +105,7 @@ struct GpuVolumeDemand {
 /// CachePlaceSums of a node, in integers.
 struct GpuPlaceSums {
     int surfaces, x, y, z, height; // number; normals; heights in cells
+    int shiftX, shiftY, shiftZ;    // from the node to the points, in cells
 };
 
 /// A CachePlace, and where its cones start.
@@ -135,7 +136,7 @@ struct GpuVolumeMaps {
 #ifdef __cplusplus
 static_assert(sizeof(GpuVolumeMap) == 112);
 static_assert(sizeof(GpuAreaLight) == 64);
-static_assert(sizeof(GpuPlaceSums) == 20);
+static_assert(sizeof(GpuPlaceSums) == 32);
 static_assert(sizeof(GpuVolumeLight) == 64);
 static_assert(sizeof(GpuVolumeMaps) == 64);
 static_assert(sizeof(GpuCacheGrids) == 4 * 64 + 32);

@@ -71,8 +71,8 @@ void visitCells(const ViewHits& seen, const CacheGrids& grids, const Visit& visi
     });
 }
 
-/// Calls visit(cell, p, normal) for each cell of gridOver() that a triangle touches, with a point
-/// of the triangle.
+/// Calls visit(cell, p, normal) for each cell of gridOver() that a triangle touches, with the point
+/// of the triangle's plane nearest to the cell's middle.
 template <class Visit>
 void visitCells(const Scene& scene, const CacheGrid& grid, const Visit& visit) {
     const Lattice cells{grid.lower, grid.cell, grid.nodes - 1U};
@@ -89,7 +89,9 @@ void visitCells(const Scene& scene, const CacheGrid& grid, const Visit& visit) {
                 const float length = glm::length(across);
                 if (length > 0)
                     visitTouchedCells(cells, corners, [&](glm::uvec3 cell) {
-                        visit(cell, corners[0], across / length);
+                        const glm::vec3 middle = cells.centre(cell), normal = across / length;
+                        const float above = glm::dot(middle - corners[0], normal);
+                        visit(cell, middle - above * normal, normal);
                     });
             }
         });

@@ -194,11 +194,17 @@ float coneRaise(ConeShadows shadows, float voxel) {
     return shadows == ConeShadows::Directional ? kRaised * voxel : 0;
 }
 
+glm::vec3 coneStart(const CachePlace& cache, ConeShadows shadows, float voxel) {
+    const float raise = coneRaise(shadows, voxel);
+    return shadows == ConeShadows::Directional ? cache.seenFrom(raise) : cache.raised(raise);
+}
+
 BlockCone coneOf(const CacheLightInput& input, const AreaLightBlock& block,
                  const CachePlace& cache) {
     const bool published = input.shadows == ConeShadows::Published;
     const float raise = coneRaise(input.shadows, input.voxels->lattice.cell);
-    BlockCone cone{.from = cache.raised(raise), .to = block.place + raise * block.normal};
+    BlockCone cone{.from = coneStart(cache, input.shadows, input.voxels->lattice.cell),
+                   .to = block.place + raise * block.normal};
     // The program takes the block's whole width for half of it.
     cone.sine = published ? block.width : block.width / 2;
     if (block.parallel)

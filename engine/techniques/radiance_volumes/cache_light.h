@@ -53,6 +53,8 @@ CacheLight lightCaches(std::span<const CachePlace> caches, const CacheLightInput
 /// Distance by which both ends of cones are raised above the surfaces there. `voxel`: side of a
 /// voxel.
 float coneRaise(ConeShadows shadows, float voxel);
+/// Where the cones of a cache start.
+glm::vec3 coneStart(const CachePlace& cache, ConeShadows shadows, float voxel);
 
 /// A cone from a cache to a block, in the world.
 struct BlockCone {

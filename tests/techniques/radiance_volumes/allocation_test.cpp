@@ -229,5 +229,22 @@ TEST(CachePlaces, AreRaisedAboveTheSurfacesThatWantThem) {
     EXPECT_EQ(thin.raised(0.5f), thin.position);
 }
 
+// A cache 0.1 below and 0.4 before the end of a floor, which is seen from x = 0.7 on.
+TEST(CachePlaces, AreSeenFromWhereThePointsAreThatWantThem) {
+    CachePlaceSums sums(1);
+    const glm::vec3 position(0.3f, -0.1f, 1);
+    for (const float x : {0.7f, 0.9f})
+        for (const float z : {0.5f, 1.1f})
+            sums.add(0, position, 0.5f, {x, 0, z}, {0, 1, 0});
+    const CachePlace place = placeOf(sums.sums(0), position, 0.5f);
+    EXPECT_LT(glm::distance(place.seenFrom(0.2f), glm::vec3(0.8f, 0.2f, 0.8f)), 1e-3f);
+    CachePlace high = place;
+    high.position.y = 0.6f, high.height = 0.6f, high.shift.y = -0.6f;
+    EXPECT_LT(glm::distance(high.seenFrom(0.2f), glm::vec3(0.8f, 0.6f, 0.8f)), 1e-3f);
+    CachePlace thin = place;
+    thin.normal = {0, 0.1f, 0};
+    EXPECT_EQ(thin.seenFrom(0.2f), position);
+}
+
 } // namespace
 } // namespace limn::allocation_test

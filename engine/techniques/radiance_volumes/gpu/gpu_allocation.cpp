@@ -153,7 +153,8 @@ std::optional<CacheAllocation> GpuAllocation::allocate(const Scene& scene, const
         for (std::size_t i = grids.firstNode(g); i < grids.firstNode(g + 1); ++i)
             if (made.address[i] != kNoCache) {
                 CachePlace& place = made.places[made.address[i]];
-                place = placeOf({sums[i].surfaces, sums[i].x, sums[i].y, sums[i].z, sums[i].height},
+                place = placeOf({sums[i].surfaces, sums[i].x, sums[i].y, sums[i].z, sums[i].height,
+                                 sums[i].shiftX, sums[i].shiftY, sums[i].shiftZ},
                                 place.position, grids.grids[g].cell);
             }
     made.missed = countMissed(picture, made);

@@ -154,7 +154,8 @@ GpuCachesLight GpuCacheLight::light(std::span<const CachePlace> places, GpuCache
                 .raise = coneRaise(input.shadows, m_lattice.cell)};
     std::vector<shared::GpuCachePlace> onDevice;
     for (const CachePlace& place : places)
-        onDevice.push_back({.position = place.position, .raised = place.raised(bound.raise)});
+        onDevice.push_back({.position = place.position,
+                            .raised = coneStart(place, input.shadows, m_lattice.cell)});
     gpu::Uploader uploader(m_device);
     const gpu::Buffer placed = uploader.buffer(std::as_bytes(std::span(onDevice)),
                                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "caches");

@@ -159,6 +159,7 @@ TEST_F(DeviceVolumesTest, PlacesCachesByWhatTheViewShows) {
             continue;
         EXPECT_EQ(mine.places[a].position, expected.places[b].position);
         const float d = glm::distance(mine.places[a].normal, expected.places[b].normal) +
+                        glm::distance(mine.places[a].shift, expected.places[b].shift) +
                         std::abs(mine.places[a].height - expected.places[b].height);
         places += double(d);
         off += d > 1e-2f ? 1 : 0;
