@@ -6,6 +6,7 @@
 namespace limn {
 
 static constexpr std::array<const char*, 3> kShadows = {"none", "directional", "published"};
+static constexpr std::array<const char*, 3> kReflections = {"harmonics", "published", "microfacet"};
 
 constinit const std::array<TechniqueSetting, 16> kVolumeSettings = {
     {{.setting = {.key = "radiance-volumes.read",
@@ -101,15 +102,16 @@ constinit const std::array<TechniqueSetting, 16> kVolumeSettings = {
       .usual = 0},
      {.setting =
           {.key = "radiance-volumes.glossy",
-           .label = "Maps for reflections",
+           .label = "Reflections",
            .tooltip =
-               "0: glossy surfaces reflect the harmonics of caches. 1: each cache keeps a map "
-               "of its light for them, which reflects less the more obliquely one looks. 2: "
-               "the same with lobes of a microfacet model, which do not",
+               "Harmonics: glossy surfaces reflect those of the caches. Published: each cache "
+               "keeps a map of its light for them, which reflects less the more obliquely one "
+               "looks. Microfacet: the same with lobes that reflect as much at all angles",
            .invalidates = Invalidates::Light},
       .range = {0, 2},
       .usual = 0,
-      .whole = true},
+      .whole = true,
+      .choices = kReflections},
      {.setting = {.key = "radiance-volumes.tile",
                   .label = "Map for reflections (texels)",
                   .tooltip = "Texels along a side of a cache's map, a power of two",
