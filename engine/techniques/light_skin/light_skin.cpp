@@ -27,19 +27,14 @@ public:
         SkinCost cost;
         double fieldMs = 0;
         const auto trace = [&]() -> const TraceScene& { return *input.trace; };
-        if (m_state.isRenewing())
-            m_inputs.reset(); // the same inputs renew more
-        LightingReport report = relightUnlessSame(
-            skinInputsOf(input.scene, input.view), m_inputs, [&](const SkinInputs& now) {
-                if (!m_state.follow(input.scene, now, trace, progress, cost))
-                    return false;
-                fieldMs = writeField(now);
-                return true;
-            });
-        if (m_state.isRenewing()) {
-            report.converged = false;
-            report.bounces = 0; // until the bounce is complete
-        }
+        LightingReport report =
+            relightUnlessSame(skinInputsOf(input.scene, input.view), m_inputs, m_state.isRenewing(),
+                              [&](const SkinInputs& now) {
+                                  if (!m_state.follow(input.scene, now, trace, progress, cost))
+                                      return Relit::Cancelled;
+                                  fieldMs = writeField(now);
+                                  return m_state.isRenewing() ? Relit::InPart : Relit::Whole;
+                              });
         describeSkin(m_state.objects(), m_state.bytes(), cost, report);
         report.steps.push_back(
             {"field", "Field", "Flux of the proxy lights in the lights' colours", fieldMs});

@@ -25,8 +25,8 @@ public:
         Stopwatch whole;
         Cost cost;
         LightingReport report =
-            relightUnlessSame(lpvInputsOf(input.scene), m_inputs, [&](const LpvInputs& now) {
-                return relight(input, now, progress, cost);
+            relightUnlessSame(lpvInputsOf(input.scene), m_inputs, false, [&](const LpvInputs& now) {
+                return relight(input, now, progress, cost) ? Relit::Whole : Relit::Cancelled;
             });
         describe(cost, report);
         report.lacks = sourcesLeftOut(input.scene, {.emitters = true});

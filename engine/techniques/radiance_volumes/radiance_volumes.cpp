@@ -2,6 +2,7 @@
 #include "engine/techniques/radiance_volumes/radiance_volumes.h"
 
 #include "engine/core/stopwatch.h"
+#include "engine/lighting/relight.h"
 #include "engine/rsm/rsm_inputs.h"
 #include "engine/techniques/radiance_volumes/lit_volume.h"
 #include "engine/techniques/radiance_volumes/volume_overlay.h"
@@ -21,21 +22,14 @@ public:
 
     LightingReport update(const LightingInput& input, const Progress& progress) override {
         Stopwatch whole;
-        VolumeInputs now = volumeInputsOf(input, m_sources.inputs());
-        LightingReport report{.converged = true};
-        report.skipped = m_inputs == now && !m_sources.fading();
         VolumeCost cost;
-        if (!report.skipped) {
-            m_inputs.reset(); // a cancelled update starts anew
-            if (relight(input, now, progress, cost)) {
-                m_inputs = std::move(now);
-                // Light through voxels that fade is replaced, whatever number of bounces suffices.
-                report.converged = !m_sources.fading();
-                report.bounces = report.converged ? 1 : 0;
-            } else {
-                report.converged = report.whole = false;
-            }
-        }
+        LightingReport report =
+            relightUnlessSame(volumeInputsOf(input, m_sources.inputs()), m_inputs,
+                              m_sources.fading(), [&](const VolumeInputs& now) {
+                                  if (!relight(input, now, progress, cost))
+                                      return Relit::Cancelled;
+                                  return m_sources.fading() ? Relit::InPart : Relit::Whole;
+                              });
         describeVolume(m_lit, cost, report);
         report.lacks = sourcesLeftOut(input.scene, {});
         report.totalMs = whole.lap();

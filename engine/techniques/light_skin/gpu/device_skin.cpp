@@ -24,18 +24,14 @@ LightingReport DeviceSkin::update(const LightingInput& input, const Progress& pr
     Stopwatch whole;
     Cost cost;
     const std::uint64_t before = m_lights->dispatches();
-    if (isRenewing())
-        m_inputs.reset(); // the same inputs renew more
     LightingReport report = relightUnlessSame(
-        skinInputsOf(input.scene, input.view), m_inputs,
-        [&](const SkinInputs& now) { return relight(input.scene, now, progress, cost); });
+        skinInputsOf(input.scene, input.view), m_inputs, isRenewing(), [&](const SkinInputs& now) {
+            if (!relight(input.scene, now, progress, cost))
+                return Relit::Cancelled;
+            m_scene = input.scene;
+            return isRenewing() ? Relit::InPart : Relit::Whole;
+        });
     cost.dispatches = m_lights->dispatches() - before;
-    if (report.bounces > 0)
-        m_scene = input.scene;
-    if (isRenewing()) {
-        report.converged = false;
-        report.bounces = 0; // until the bounce is complete
-    }
     if (m_pass)
         m_viewport.setIndirect(m_pass);
     describe(cost, report);

@@ -24,11 +24,12 @@ LightingReport DeviceLpv::update(const LightingInput& input, const Progress& pro
     Stopwatch whole;
     Cost cost;
     LightingReport report =
-        relightUnlessSame(lpvInputsOf(input.scene), m_inputs, [&](const LpvInputs& now) {
-            return relight(input.scene, now, progress, cost);
+        relightUnlessSame(lpvInputsOf(input.scene), m_inputs, false, [&](const LpvInputs& now) {
+            if (!relight(input.scene, now, progress, cost))
+                return Relit::Cancelled;
+            m_scene = input.scene;
+            return Relit::Whole;
         });
-    if (report.bounces > 0)
-        m_scene = input.scene;
     if (m_gpu->field())
         m_viewport.setIndirect(m_gpu->field());
     describe(cost, report);

@@ -3,6 +3,7 @@
 
 #include "engine/core/stopwatch.h"
 #include "engine/gpu/uploader.h"
+#include "engine/lighting/relight.h"
 #include "engine/rsm/rsm_inputs.h"
 #include "engine/scene/light/unit_light.h"
 #include "engine/techniques/radiance_volumes/volume_overlay.h"
@@ -19,23 +20,17 @@ DeviceVolumes::DeviceVolumes(gpu::Device& device, Viewport& viewport)
 
 LightingReport DeviceVolumes::update(const LightingInput& input, const Progress& progress) {
     Stopwatch whole;
-    VolumeInputs now = volumeInputsOf(input, m_followed);
-    LightingReport report{.converged = true};
-    report.skipped = m_inputs == now && !m_voxels.fading();
     Cost cost;
-    if (!report.skipped) {
-        const std::uint64_t before = dispatches();
-        m_inputs.reset(); // a cancelled update starts anew
-        if (relight(input.scene, now, progress, cost)) {
-            m_inputs = std::move(now);
-            m_scene = input.scene;
-            report.converged = !m_voxels.fading();
-            report.bounces = report.converged ? 1 : 0;
-        } else {
-            report.converged = report.whole = false;
-        }
-        cost.dispatches = dispatches() - before;
-    }
+    const std::uint64_t before = dispatches();
+    LightingReport report =
+        relightUnlessSame(volumeInputsOf(input, m_followed), m_inputs, m_voxels.fading(),
+                          [&](const VolumeInputs& now) {
+                              if (!relight(input.scene, now, progress, cost))
+                                  return Relit::Cancelled;
+                              m_scene = input.scene;
+                              return m_voxels.fading() ? Relit::InPart : Relit::Whole;
+                          });
+    cost.dispatches = dispatches() - before;
     if (m_pass)
         m_viewport.setIndirect(m_pass);
     describe(cost, report);
