@@ -75,9 +75,10 @@ constinit const std::array<TechniqueSetting, 16> kVolumeSettings = {
      {.setting = {.key = "radiance-volumes.shadow",
                   .label = "Shadows",
                   .tooltip =
-                      "0: area lights cast no shadow. 1: cones through voxels that are averaged "
-                      "for each direction. 2: the cones of the thesis, which let light through "
-                      "walls and are dimmed by the surface that sends it",
+                      "Whether area lights cast shadows, by cones through voxels. Directional (1): "
+                      "voxels are averaged for each direction. Published (2): the cones of the "
+                      "thesis, which let light through walls and are dimmed by the surface that "
+                      "sends it",
                   .invalidates = Invalidates::Light},
       .range = {0, 2},
       .usual = 1,
