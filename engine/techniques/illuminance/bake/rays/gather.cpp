@@ -45,7 +45,7 @@ struct HitClassifier {
     const CachePoints& points;
     Linker linker;
     std::vector<std::uint32_t> targets; ///< senders to aim at
-    const std::vector<float>& extents;  ///< lampExtents() of the surfels
+    const LampPatches& lamps;
     bool aimedAlready;
     std::vector<bool> isTarget; ///< per sender; empty without targets
 
@@ -95,12 +95,12 @@ struct HitClassifier {
     }
 
 private:
-    /// Whether a ray at the middle of a sender tells how much of it is in sight from a point.
+    /// Whether a point is far enough from a sender to aim at it.
     bool isFar(std::uint32_t sender, std::uint32_t point) const {
-        if (linker == Linker::FormFactor || sender >= extents.size())
+        if (linker == Linker::FormFactor || sender >= lamps.extent.size())
             return true;
         const glm::vec3 way = set.surfels.position[sender] - points.position[point];
-        const float from = kAimedFrom * extents[sender];
+        const float from = kAimedFrom * lamps.extent[sender];
         return glm::dot(way, way) >= from * from;
     }
 
@@ -120,8 +120,8 @@ private:
         double sum = 0;
         for (const AimedSample& sample : all)
             cumulative.push_back(
-                sum +=
-                double(solidAngleOf(set.surfels, points, caches.kind[cache], sample).transport));
+                sum += double(solidAngleOf(set.surfels, lamps, points, caches.kind[cache], sample)
+                                  .transport));
         std::vector<AimedSample> chosen;
         const double step = sum / maximum,
                      start = double(unitFloat(mixBits(points.seed[cache] + 1))) * step;
@@ -143,7 +143,8 @@ private:
         RaysTogether<AimedSample> rays(trace, TraceMask::Static);
         const auto open = [&](const AimedSample& sample) { aimed.push_back(sample); };
         for (const AimedSample& sample : samples) {
-            const SubtendedSolidAngle subtended = solidAngleOf(set.surfels, points, kind, sample);
+            const SubtendedSolidAngle subtended =
+                solidAngleOf(set.surfels, lamps, points, kind, sample);
             if (subtended.transport > 0)
                 rays.add(rayTo(sample, subtended.direction), sample, open);
         }
@@ -154,10 +155,10 @@ private:
     /// The ray of a sample whose sender lies along `direction`.
     Ray rayTo(const AimedSample& sample, glm::vec3 direction) const {
         const glm::vec3 from = startOf(trace, points, sample.point);
-        const std::uint32_t s = sample.sender;
-        if (s >= set.surfels.size())
+        if (sample.sender >= set.surfels.size())
             return {from, direction};
-        return rayBetween(from, trace.clearOf(set.surfels.position[s], set.surfels.normal[s]));
+        const WorldPoint target = targetOf(set.surfels, lamps, points, sample);
+        return rayBetween(from, trace.clearOf(target.position, target.normal));
     }
 };
 
@@ -274,7 +275,23 @@ std::uint32_t RayGatherer::traceRest(std::uint32_t cache, RawHit* hits) const {
     return std::uint32_t(rest.size());
 }
 
-SubtendedSolidAngle solidAngleOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
+WorldPoint targetOf(const Surfels& surfels, const LampPatches& lamps, const CachePoints& points,
+                    const AimedSample& sample) {
+    constexpr std::uint32_t kTries = 4; // more only where hardly any of the patch faces the start
+    const std::uint32_t s = sample.sender;
+    const std::span<const WorldPoint> patch = lamps.of(s);
+    if (patch.empty())
+        return {surfels.position[s], surfels.normal[s]};
+    const glm::vec3 start = points.position[sample.point];
+    std::uint32_t k = mixBits(sample.point ^ mixBits(s + 1)) % lamps.each;
+    for (std::uint32_t tried = 1;
+         tried < kTries && !(glm::dot(start - patch[k].position, patch[k].normal) > 0); ++tried)
+        k = (k + lamps.each / kTries) % lamps.each;
+    return patch[k];
+}
+
+SubtendedSolidAngle solidAngleOf(const Surfels& surfels, const LampPatches& lamps,
+                                 const CachePoints& points, CacheKind kind,
                                  const AimedSample& sample) {
     constexpr float kPi = std::numbers::pi_v<float>;
     const std::uint32_t s = sample.sender;
@@ -283,16 +300,21 @@ SubtendedSolidAngle solidAngleOf(const Surfels& surfels, const CachePoints& poin
         subtended.direction = skyCellDirection(s - std::uint32_t(surfels.size()));
         subtended.transport = sample.scale * 4 / float(kSkyCells);
     } else {
-        const glm::vec3 way = surfels.position[s] - points.position[sample.point];
+        const WorldPoint target = targetOf(surfels, lamps, points, sample);
+        const glm::vec3 way = target.position - points.position[sample.point];
         const float d2 = glm::dot(way, way);
         if (!(d2 > 0))
             return {};
         subtended.direction = way / std::sqrt(d2);
-        const float cosSender = -glm::dot(subtended.direction, surfels.normal[s]);
+        const bool isPoint = lamps.of(s).empty();
+        const float cosSender =
+            -glm::dot(subtended.direction, isPoint ? target.normal : lamps.normalOf(s));
         if (!(cosSender > 0))
             return {};
-        subtended.transport =
-            sample.scale * surfels.area[s] * cosSender / (d2 + surfels.area[s] / (2 * kPi)) / kPi;
+        const float facing = surfels.area[s] * cosSender;
+        const float solidAngle =
+            isPoint ? facing / (d2 + surfels.area[s] / (2 * kPi)) : std::min(facing / d2, 2 * kPi);
+        subtended.transport = sample.scale * solidAngle / kPi;
     }
     subtended.cosTheta = glm::dot(subtended.direction, points.normal[sample.point]);
     return kind == CacheKind::Hemisphere && !(subtended.cosTheta > 0) ? SubtendedSolidAngle{}
@@ -306,12 +328,12 @@ std::uint32_t maxAimed(const Scene& scene, const SurfelSet& set, Linker linker,
 }
 
 bool classifyHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-                  const CachePoints& points, Linker linker, const std::vector<float>& extents,
-                  const Progress& progress, GatherHits& hits, std::uint64_t& aimedRays) {
-    HitClassifier classifier{trace,   set,
-                             caches,  points,
-                             linker,  aimTargets(trace.scene(), set, linker),
-                             extents, !hits.aimedBegin.empty(),
+                  const CachePoints& points, Linker linker, const Progress& progress,
+                  GatherHits& hits, std::uint64_t& aimedRays) {
+    HitClassifier classifier{trace,      set,
+                             caches,     points,
+                             linker,     aimTargets(trace.scene(), set, linker),
+                             hits.lamps, !hits.aimedBegin.empty(),
                              {}};
     if (!classifier.targets.empty())
         classifier.isTarget.resize(set.surfels.size() + kSkyCells);

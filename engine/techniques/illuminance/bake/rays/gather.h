@@ -20,10 +20,20 @@ struct SubtendedSolidAngle {
     glm::vec3 direction{0, 0, 1}; ///< unit, away from the point
 };
 
+/// Where the ray of a sample of a surfel ends: at one of the points of an emissive surfel's patch
+/// that face the start, which a hash of sender and start chooses, so that the share of blocked rays
+/// is that of the patch which is hidden. Other surfels have their position alone.
+WorldPoint targetOf(const Surfels& surfels, const LampPatches& lamps, const CachePoints& points,
+                    const AimedSample& sample);
+
 /// Solid angle of the sample's sender at its point, times the sample's scale. A sky cell has its
-/// whole solid angle; that of a surfel is the bounded a cos / (d^2 + a / 2 pi), which tends to 2 pi
-/// at contact. A point of a Hemisphere cache sees nothing behind it.
-SubtendedSolidAngle solidAngleOf(const Surfels& surfels, const CachePoints& points, CacheKind kind,
+/// whole solid angle. That of an emissive surfel is a cos / d^2 at targetOf(), at most 2 pi, with
+/// the cosine of the patch's mean normal: over a flat patch its mean is exact, and over a closed
+/// body the errors of curved ones cancel, where the cosines of single points would be noise. That
+/// of another surfel, with the one position, is the bounded a cos / (d^2 + a / 2 pi), which tends
+/// to 2 pi at contact. A point of a Hemisphere cache sees nothing behind it.
+SubtendedSolidAngle solidAngleOf(const Surfels& surfels, const LampPatches& lamps,
+                                 const CachePoints& points, CacheKind kind,
                                  const AimedSample& sample);
 
 /// Result of one ray before classifyHits(): a leaf of the ClusterTree or, with kBack set, the
@@ -100,10 +110,10 @@ private:
 /// Linker::Gather: only a handful of rays would meet a small bright lamp, which causes blotches. A
 /// cache that meets the emissive surfels with fewer than an eighth of its rays therefore aims one
 /// ray at each of them or, where there are more than maxLampsAimed(), at a sample of them in
-/// proportion to what they would contribute without occlusion. A ray at its middle does not tell
-/// how much of a surfel is in sight from nearer than kAimedFrom times its extent (`extents`,
-/// lampExtents()): such a surfel keeps its chance hits. Which materials emit only guides the
-/// sampling; rays meet all other senders.
+/// proportion to what they would contribute without occlusion. A single ray tells little of how
+/// much of a surfel is in sight from nearer than kAimedFrom times the extent of its patch in
+/// hits.lamps: such a surfel keeps its chance hits. Which materials emit only guides the sampling;
+/// rays meet all other senders.
 ///
 /// Linker::FormFactor: every cache aims a ray at every surfel and sky cell that faces it, and the
 /// rays only tell which of its points are in walls.
@@ -111,11 +121,11 @@ private:
 /// Where hits.aimedBegin is already filled, nothing is traced and hits.aimed stays. Adds the number
 /// of aimed rays to `aimedRays`. Returns false when cancelled.
 bool classifyHits(const TraceScene& trace, const SurfelSet& set, const Caches& caches,
-                  const CachePoints& points, Linker linker, const std::vector<float>& extents,
-                  const Progress& progress, GatherHits& hits, std::uint64_t& aimedRays);
+                  const CachePoints& points, Linker linker, const Progress& progress,
+                  GatherHits& hits, std::uint64_t& aimedRays);
 
-/// Distance from which caches may aim at an emissive surfel, in its extents: there the midpoint
-/// rule is off by about 1 / 16.
+/// Distance from which caches may aim at an emissive surfel, in extents of its patch: from there,
+/// the solid angles of the patch's points are within about a third of each other.
 inline constexpr float kAimedFrom = 4;
 
 /// Maximum number of emissive surfels that a cache of `rays` rays aims at. Aiming at more takes

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/math/packing.h"
+#include "engine/techniques/illuminance/bake/senders/lamp_patches.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -48,6 +49,7 @@ struct GatherHits {
     std::vector<std::uint32_t> sender;
     std::vector<std::uint32_t> aimedBegin;
     std::vector<AimedSample> aimed;
+    LampPatches lamps; ///< whose points the aimed rays ran to
     SkyHits sky;
 
     /// What a cache's rays met.

@@ -68,15 +68,15 @@ void forEachSeenHit(const GatherHits& hits, const CachePoints& points, const Cac
     }
 }
 
-/// Calls visit(sender, FormFactor, u) for each of a cache's aimed samples. Its ray meets the middle
-/// of a sender and stands for a cone of the sender's solid angle: pi transport / scale = 2 pi u.
+/// Calls visit(sender, FormFactor, u) for each of a cache's aimed samples. Its ray meets a point of
+/// a sender and stands for a cone of the sender's solid angle: pi transport / scale = 2 pi u.
 template <class Visit>
 void forEachAimedSample(const Surfels& surfels, const GatherHits& hits, const CachePoints& points,
                         const Caches& caches, std::uint32_t cache, const Visit& visit) {
     const CacheKind kind = caches.kind[cache];
     for (std::uint32_t k = hits.aimedBegin[cache]; k < hits.aimedBegin[cache + 1]; ++k) {
         const AimedSample& sample = hits.aimed[k];
-        const SubtendedSolidAngle v = solidAngleOf(surfels, points, kind, sample);
+        const SubtendedSolidAngle v = solidAngleOf(surfels, hits.lamps, points, kind, sample);
         visit(sample.sender,
               FormFactor{v.transport, v.transport * irradianceShare(kind, v.cosTheta),
                          v.direction * v.transport},

@@ -101,6 +101,12 @@ std::vector<std::uint64_t> ownerKeys(const SurfelSet& set,
     return keys;
 }
 
+std::uint64_t hashLamps(const Scene& scene, std::uint64_t seed) {
+    for (const Instance& i : scene.instances)
+        seed = hashValue(std::uint32_t(emits(scene.materialOf(i))), seed);
+    return seed;
+}
+
 std::uint64_t hashRecord(const TraceRecord& r) {
     std::uint64_t h = hashValue(r.clearance, hashValue(r.rays, 7));
     for (const TracedInstance& i : r.instances) {

@@ -50,6 +50,9 @@ TraceRecord describeTrace(const TraceScene& trace, const SurfelSet& set, const O
 std::vector<std::uint64_t> ownerKeys(const SurfelSet& set,
                                      const std::vector<std::uint64_t>& meshes);
 
+/// Hash of which instances emit. How much they emit changes no ray.
+std::uint64_t hashLamps(const Scene& scene, std::uint64_t seed);
+
 /// Hash of everything but `blocks`.
 std::uint64_t hashRecord(const TraceRecord& record);
 

@@ -41,10 +41,9 @@ std::uint64_t documentKey(const TraceInput& in) {
 }
 
 std::uint64_t aimedKey(const TraceInput& in, std::uint64_t trace) {
-    std::uint64_t h = hashValue(kAimedFrom, hashValue(std::uint32_t(in.linker), trace));
-    for (const Instance& i : in.trace.scene().instances)
-        h = hashValue(std::uint32_t(emits(in.trace.scene().materialOf(i))), h);
-    return stageKey(Stage::AimedHits, h);
+    constexpr std::uint32_t kAtPatches = 2; // earlier rays ran to surfels' positions
+    const std::uint64_t h = hashValue(kAimedFrom, hashValue(std::uint32_t(in.linker), trace));
+    return stageKey(Stage::AimedHits, hashLamps(in.trace.scene(), hashValue(kAtPatches, h)));
 }
 
 /// A block's caches that differ from an earlier one's, and their hits.
@@ -395,8 +394,10 @@ bool Tracing::finish() {
         gridDepths(in.set.surfels, in.caches, in.points, m_hits.sender, in.rays, in.gridReach);
     const bool fresh = m_hits.aimedBegin.empty();
     std::uint64_t aimed = 0;
-    if (!classifyHits(in.trace, in.set, in.caches, in.points, in.linker,
-                      lampExtents(in.trace.scene(), in.set, in.owners), m_progress, m_hits, aimed))
+    m_hits.lamps = in.linker == Linker::Gather
+                       ? findLampPatches(in.trace.scene(), in.set, in.owners)
+                       : LampPatches{};
+    if (!classifyHits(in.trace, in.set, in.caches, in.points, in.linker, m_progress, m_hits, aimed))
         return false;
     m_rays += aimed;
     if (aims && m_store && fresh) {

@@ -95,9 +95,4 @@ private:
 /// way, stand for other areas than they were placed for; a rim of 6 mm had five times its own.
 std::vector<float> ownedAreas(const Scene& scene, const SurfelSet& set, const OwnerTables& owners);
 
-/// Root mean square distance [m] of each surfel from the area that it stands for, 0 for surfels of
-/// instances that do not emit. It is 0.4 times the square root of the area for a compact patch, and
-/// much more for a piece of a thin strip, such as the rim of a flat lamp.
-std::vector<float> lampExtents(const Scene& scene, const SurfelSet& set, const OwnerTables& owners);
-
 } // namespace limn

@@ -191,7 +191,7 @@ SeenByLink seenByLink(const Room& r, const Caches& caches, std::uint32_t c) {
         }
     for (std::uint32_t k = r.hits.aimedBegin[c]; k < r.hits.aimedBegin[c + 1]; ++k) {
         const SubtendedSolidAngle v =
-            solidAngleOf(r.set.surfels, r.points, caches.kind[c], r.hits.aimed[k]);
+            solidAngleOf(r.set.surfels, r.hits.lamps, r.points, caches.kind[c], r.hits.aimed[k]);
         add(r.hits.aimed[k].sender, v.direction, v.transport / r.hits.aimed[k].scale / 2,
             v.transport, v.cosTheta);
         ++result.aimed;
