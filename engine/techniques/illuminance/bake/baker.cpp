@@ -126,7 +126,8 @@ SeenPatches seenPatchesStage(BakeRun& run) {
     const std::uint64_t rayStarts = hashRecord(describeTrace(
         run.trace, set, *run.owners, caches, run.points, std::max(looks, 1U), run.meshes));
     const std::uint32_t texels = atlas.layout.width * atlas.layout.height;
-    const std::uint64_t key = stageKey(Stage::SeenPatches, hashValue(texels, rayStarts));
+    const std::uint64_t key =
+        stageKey(Stage::SeenPatches, hashLamps(scene, hashValue(texels, rayStarts)));
     return keptOrMade<SeenPatches>(
         run.store, key, run.progress,
         [&](auto& a, auto& s) {

@@ -5,6 +5,7 @@
 #include "engine/core/parallel.h"
 #include "engine/lightmap/texel_sides.h"
 #include "engine/math/sampling.h"
+#include "engine/scene/mesh/input_hash.h"
 #include "engine/techniques/illuminance/bake/rays/seen_hits.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace limn {
 namespace {
 
 constexpr std::uint32_t kPicks = 16; ///< maximum number of places of a patch that are compared
-constexpr float kMinError = 0.1f;    ///< difference in the share of the sky that counts as an error
+constexpr float kMinError = 0.1f;    ///< difference in the share of light that counts as an error
 
 /// The point where a ray of a cache met a surfel's patch.
 struct PatchHit {
@@ -43,6 +44,12 @@ WorldPoint placeOf(const Scene& scene, const SurfelSet& set, std::uint32_t surfe
     return p;
 }
 
+/// Shares of the irradiance of a bright hemisphere that come from the sky's directions and from
+/// those of emissive surfaces.
+struct LightShares {
+    float sky = 0, lamps = 0;
+};
+
 struct PatchHits {
     const TraceScene& trace;
     const SurfelSet& set;
@@ -52,21 +59,33 @@ struct PatchHits {
     std::uint32_t rays;                    ///< number for each cache and each surfel
     std::vector<PatchHit> hits = {};       ///< `rays` per cache
     std::vector<float> ofRay = {};         ///< rayIrradiances() of a lightmap cache
-    std::vector<float> sky = {};           ///< share of the sky's irradiance that each cache has
+    std::vector<LightShares> shares = {};  ///< of each lightmap cache
     std::vector<std::uint32_t> begin = {}; ///< of surfel s: order[begin[s] … begin[s + 1])
     std::vector<std::uint32_t> order = {}; ///< indices into `hits`
 
     bool look(const Progress& progress);
+    void addLight(const SurfaceHit& hit, float irradiance, LightShares& shares) const;
     void sort();
     std::vector<std::uint32_t> picks(std::uint32_t surfel) const;
     bool isSeen(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const;
     MeshPoint placeFor(std::uint32_t surfel, const std::vector<std::uint32_t>& picked) const;
 };
 
+/// Adds a ray's part of the irradiance to the light that it met, if any.
+void PatchHits::addLight(const SurfaceHit& hit, float irradiance, LightShares& sum) const {
+    if (!hit) {
+        sum.sky += irradiance;
+        return;
+    }
+    const Material& material = trace.scene().materialOf(trace.scene().instances[hit.instance]);
+    if (emits(material) && (hit.frontFace || isTwoSided(material)))
+        sum.lamps += irradiance;
+}
+
 bool PatchHits::look(const Progress& progress) {
     resizeLarge(hits, std::size_t(caches.lightmapCount) * rays);
     ofRay = rayIrradiances(rays, CacheKind::Hemisphere);
-    sky.resize(caches.lightmapCount);
+    shares.resize(caches.lightmapCount);
     const RayGatherer gatherer(trace, set, caches, points, rays, owners);
     return parallelRanges(
         caches.lightmapCount, 64, progress, "caches", [&](std::size_t first, std::size_t last) {
@@ -77,9 +96,8 @@ bool PatchHits::look(const Progress& progress) {
                     const Ray ray = gatherer.ray(directions, std::uint32_t(c), r);
                     const SurfaceHit hit = trace.closestSurface(ray, TraceMask::Static);
                     const RawHit met = gatherer.credit(hit, ray.direction);
-                    if (!hit)
-                        sky[c] += ofRay[r];
-                    else if (counts && !(met & kBack))
+                    addLight(hit, ofRay[r], shares[c]);
+                    if (hit && counts && !(met & kBack))
                         hits[c * rays + r] = {met,
                                               {hit.triangle, {hit.u, hit.v}},
                                               hit.t * hit.t < set.surfels.area[met]};
@@ -169,17 +187,18 @@ MeshPoint PatchHits::placeFor(std::uint32_t surfel,
     return best;
 }
 
-/// Share of the sky's irradiance that a surfel has.
-float skyAt(const PatchHits& patchHits, const Surfels& moved, std::uint32_t s) {
+/// Shares of light that a surfel has.
+LightShares sharesAt(const PatchHits& patchHits, const Surfels& moved, std::uint32_t s) {
     const DirectionSet directions =
         gatherDirections(patchHits.rays, CacheKind::Hemisphere, mixBits(s + 1));
     const glm::mat3 toWorld = basisAround(moved.normal[s]);
     const glm::vec3 from = patchHits.trace.clearOf(moved.position[s], moved.normal[s]);
-    float open = 0;
+    LightShares shares;
     for (std::uint32_t r = 0; r < patchHits.rays; ++r)
-        if (!patchHits.trace.occluded({from, toWorld * directions[r]}, TraceMask::Static))
-            open += patchHits.ofRay[r];
-    return open;
+        patchHits.addLight(
+            patchHits.trace.closestSurface({from, toWorld * directions[r]}, TraceMask::Static),
+            patchHits.ofRay[r], shares);
+    return shares;
 }
 
 /// Texels of the atlas that belong to no cache.
@@ -194,20 +213,26 @@ std::vector<std::uint32_t> freeTexels(const LightmapLayout& layout, const Caches
     return result;
 }
 
-/// Error of the caches of a surfel: the share of the sky that the surfel sees minus the share that
-/// they see, times the number of rays that see the surfel.
+/// Error of the caches of a surfel: the share of the sky, or of lamps where that differs by more,
+/// that the surfel sees minus the share that they see, times the number of rays that see the
+/// surfel.
 float cacheError(const PatchHits& patchHits, const Surfels& moved, std::uint32_t s) {
-    float read = 0, sum = 0;
+    LightShares read;
+    float sum = 0;
     for (int k = 0; k < 4; ++k)
-        if (moved.cacheWeight[s][k] > 0) {
-            read += moved.cacheWeight[s][k] * patchHits.sky[moved.cache[s][k]];
-            sum += moved.cacheWeight[s][k];
+        if (const float weight = moved.cacheWeight[s][k]; weight > 0) {
+            const LightShares& shares = patchHits.shares[moved.cache[s][k]];
+            read.sky += weight * shares.sky;
+            read.lamps += weight * shares.lamps;
+            sum += weight;
         }
     const std::uint32_t seen = patchHits.begin[s + 1] - patchHits.begin[s];
     if (seen == 0 || !(sum > 0))
         return 0;
-    const float visible = skyAt(patchHits, moved, s);
-    return std::abs(visible - read) < kMinError ? 0 : (visible - read) * float(seen);
+    const LightShares visible = sharesAt(patchHits, moved, s);
+    const float sky = visible.sky - read.sky, lamps = visible.lamps - read.lamps,
+                larger = std::abs(lamps) > std::abs(sky) ? lamps : sky;
+    return std::abs(larger) < kMinError ? 0 : larger * float(seen);
 }
 
 /// A group of surfels that are close together, face alike, and whose caches err in the same

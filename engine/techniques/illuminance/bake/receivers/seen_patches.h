@@ -47,11 +47,12 @@ struct SeenPatches {
 /// then moves to such a point, so that the light it receives, and sends from its whole patch, is
 /// that of the seen part.
 ///
-/// A surfel whose lightmap caches see a share of the sky that differs from its own by a tenth or
-/// more reads a surfel cache, which it shares with such surfels beside it. Surfel caches go where
-/// the difference times the number of rays is largest: at most one per kCachesPerSurfelCache
-/// lightmap caches, and no more than the atlas has texels that no lookup needs. `caches`: the
-/// lightmap's. The result is meaningless when cancelled.
+/// A surfel whose lightmap caches see a share of the sky, or of emissive surfaces, that differs
+/// from its own by a tenth or more reads a surfel cache, which it shares with such surfels beside
+/// it: within a niche, a texel may lie half behind a bar. Surfel caches go where the difference
+/// times the number of rays is largest: at most one per kCachesPerSurfelCache lightmap caches, and
+/// no more than the atlas has texels that no lookup needs. `caches`: the lightmap's. The result is
+/// meaningless when cancelled.
 SeenPatches findSeenPatches(const TraceScene& trace, const SurfelSet& set,
                             const OwnerTables& owners, const Atlas& atlas, const Caches& caches,
                             const CachePoints& points, std::uint32_t rays,

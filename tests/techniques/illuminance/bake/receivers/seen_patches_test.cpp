@@ -4,12 +4,14 @@
 #include "engine/lightmap/atlas_stage.h"
 #include "engine/math/sampling.h"
 #include "engine/scene/mesh/input_hash.h"
+#include "engine/techniques/illuminance/bake/rays/seen_hits.h"
 #include "engine/techniques/illuminance/bake/receivers/seen_patches.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace limn::seen_patches_test {
@@ -164,6 +166,66 @@ TEST(SeenPatches, CachesOfTheirOwnTakeTexelsThatNoLookupNeeds) {
         }
     }
     EXPECT_EQ(read.size(), own) << "none without a surfel";
+}
+
+/// Share of the irradiance of a bright hemisphere that comes from an instance's directions.
+double shareOf(const TraceScene& trace, std::uint32_t instance, glm::vec3 position,
+               glm::vec3 normal) {
+    constexpr std::uint32_t kRays = 256;
+    const DirectionSet directions = gatherDirections(kRays, CacheKind::Hemisphere, 0);
+    const std::vector<float> irradiance = rayIrradiances(kRays, CacheKind::Hemisphere);
+    const glm::mat3 toWorld = basisAround(normal);
+    double share = 0;
+    for (std::uint32_t r = 0; r < kRays; ++r)
+        if (trace.closestHit({trace.clearOf(position, normal), toWorld * directions[r]}).instance ==
+            instance)
+            share += double(irradiance[r]);
+    return share;
+}
+
+/// The mean over a cache's points.
+double shareOf(const Prepared& p, std::uint32_t instance, std::uint32_t cache) {
+    const std::uint32_t begin = p.points.begin[cache], end = p.points.begin[cache + 1];
+    double sum = 0;
+    for (std::uint32_t k = begin; k < end; ++k)
+        sum += shareOf(p.trace, instance, p.points.position[k], p.points.normal[k]);
+    return sum / (end - begin);
+}
+
+// A low table stands in a closed room under a ceiling of light. Texels of the floor are much wider
+// than surfels, so that those by the table's edge read both what it covers and what it does not.
+TEST(SeenPatches, SurfelsWhoseCachesSeeAnotherShareOfLampsReadCachesOfTheirOwn) {
+    constexpr std::uint32_t kLamp = 2;
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.7f)));
+    b.addMaterial(lambert(glm::vec3(0), glm::vec3(1)));
+    b.add(box(glm::vec3(0), glm::vec3(4), true));
+    b.add(box({1, 0.3f, 1}, {3, 0.35f, 3}, false));
+    b.add(quad({0, 3.99f, 0}, {4, 0, 0}, {0, 0, 4}, 1));
+    Scene scene = b.build();
+    scene.bake.surfels = 3000;
+    scene.bake.lightmapCaches = 150;
+    Prepared p(scene);
+    const std::uint32_t texels = p.caches.lightmapCount;
+    ASSERT_GT(p.seen.surfelCaches.size(), 0U);
+    placeSeen(p.trace.scene(), p.seen, p.set);
+    Surfels& s = p.set.surfels;
+    addSurfelCaches(p.trace.scene(), p.atlas.layout, p.seen, s, p.caches, p.points);
+    double before = 0, after = 0;
+    for (std::uint32_t i = 0; i < s.size(); ++i) {
+        if (p.seen.surfelCache[i] == ~0U)
+            continue;
+        const double share = shareOf(p.trace, kLamp, s.position[i], s.normal[i]);
+        double read = 0;
+        for (int k = 0; k < 4; ++k)
+            if (p.seen.cacheWeight[i][k] > 0)
+                read += double(p.seen.cacheWeight[i][k]) * shareOf(p, kLamp, p.seen.cache[i][k]);
+        before += std::abs(share - read);
+        after += std::abs(share - shareOf(p, kLamp, texels + p.seen.surfelCache[i]));
+    }
+    EXPECT_LT(after, before / 2);
+    scene.materials[1].emission = glm::vec3(0);
+    EXPECT_EQ(Prepared(scene).seen.surfelCaches.size(), 0U);
 }
 
 } // namespace
