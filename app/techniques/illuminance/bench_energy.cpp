@@ -30,7 +30,7 @@ struct EnergyBench {
 };
 
 constexpr Column kColumns[] = {{"scene", -18, "name"},
-                               {"step", -16, "step"},
+                               {"step", -24, "step"},
                                {"energy [%]", 10, "energy", 2, 100},
                                {"change [%]", 10, "change", 2, 100},
                                {"nRMSE", 8, "nrmse", 4}};
@@ -82,6 +82,37 @@ Json senderRows(const std::string& name, const std::vector<SendersAt>& senders) 
     return rows;
 }
 
+/// Rows of steps, each with what it adds to the one before. Steps of pixels that see lamps are
+/// called so.
+Json stepRows(const std::string& name, const EnergyChain& chain,
+              const std::vector<EnergyStep>& steps, bool onLamps) {
+    Json rows = Json::array();
+    double before = 1;
+    for (const EnergyStep& s : steps) {
+        rows.push_back({{"name", name},
+                        {"step", onLamps ? s.name + " on lamps" : s.name},
+                        {"energy", s.energy},
+                        {"change", s.energy - before},
+                        {"nrmse", s.nrmse},
+                        {"reference_noise", onLamps ? Json() : Json(chain.noise)}});
+        before = s.energy;
+    }
+    return rows;
+}
+
+/// The steps, light straight from lamps, and the steps of the pixels that see lamps.
+Json energyRows(const std::string& name, const EnergyChain& chain) {
+    Json rows = stepRows(name, chain, chain.steps, false);
+    const auto append = [&](const Json& more) {
+        for (const Json& row : more)
+            rows.push_back(row);
+    };
+    if (chain.emitters.energy > 0)
+        append(stepRows(name, chain, {chain.emitters}, false));
+    append(stepRows(name, chain, chain.onLamps, true));
+    return rows;
+}
+
 Exit runEnergyBench(const EnergyBench& o) {
     const ThreadLimit threads(o.bake.threads);
     const Result<ImportedScene> imported = openScene(o.scene);
@@ -91,25 +122,15 @@ Exit runEnergyBench(const EnergyBench& o) {
     const Result<EnergyChain> chain = measure(o, scene);
     if (!chain)
         return failed(fmt::format("{}: {}", o.scene.scene, chain.error().message));
-    if (!o.json) {
-        fmt::print("{} points; standard error of the reference's mean {:.3f} %\n", chain->pixels,
-                   100 * chain->noise);
-        printTitles(kColumns);
-    }
     const std::string name = std::filesystem::path(o.scene.scene).stem().string();
-    Json rows = Json::array();
-    double before = 1;
-    for (const EnergyStep& s : chain->steps) {
-        Json row = {{"name", name},       {"step", s.name},
-                    {"energy", s.energy}, {"change", s.energy - before},
-                    {"nrmse", s.nrmse},   {"reference_noise", chain->noise}};
-        before = s.energy;
-        if (!o.json)
-            printRow(kColumns, row);
-        rows.push_back(std::move(row));
-    }
-    const Json senders = senderRows(name, chain->senders);
+    const Json rows = energyRows(name, *chain), senders = senderRows(name, chain->senders);
     if (!o.json) {
+        fmt::print("{} points, {} of them on lamps; standard error of the reference's mean {:.3f} "
+                   "%\n",
+                   chain->pixels, chain->lamps, 100 * chain->noise);
+        printTitles(kColumns);
+        for (const Json& row : rows)
+            printRow(kColumns, row);
         fmt::print("\n");
         printTitles(kSenderColumns);
         for (const Json& row : senders)

@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/measure/seen_points.h"
+#include "engine/picture/emitted_light.h"
 #include "engine/shading/direct_light.h"
 #include "engine/techniques/illuminance/bake/rays/gather.h"
 #include "engine/techniques/illuminance/bake/senders/surfel_normals.h"
@@ -18,6 +19,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <span>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -49,14 +51,20 @@ struct Chain {
     const EnergyBakes& bakes;
     const EnergyOptions& options;
     const Progress& progress;
-    const PathContext& paths;
-    std::vector<SeenPoint> seen = {};
+    const EmittedLightSources& sources;
+    const PathContext paths{trace, sources.emitters, sources.sky};
+    std::vector<SeenPoint> seen = {}; ///< pixels that see lamps come last
+    std::size_t measured = 0;         ///< number before those, or of all where there are no others
     std::vector<std::uint32_t> cacheOfTexel = {};
 
     void findSeen();
     glm::vec3 truth(const SurfacePoint& p, std::uint32_t seed, std::uint32_t sample) const;
-    std::optional<Irradiances> atTexels() const;
+    template <class Light>
+    std::optional<Irradiances> atTexels(const Light& light) const;
+    std::optional<Irradiances> truthAtTexels() const;
+    std::optional<Irradiances> emittedAtTexels() const;
     std::optional<std::vector<glm::vec4>> trueRadiosity() const;
+    std::vector<glm::vec4> emittedRadiosity() const;
     std::optional<std::vector<SendersAt>> sendersAt(const std::vector<glm::vec4>& leaves,
                                                     double truth) const;
     Irradiances gathered(const Bake& bake, const std::vector<glm::vec4>& leaves) const;
@@ -75,6 +83,10 @@ void Chain::findSeen() {
     seen = findSeenPoints(trace, options.camera, options.width, options.height, options.seed);
     std::erase_if(seen,
                   [&](const SeenPoint& p) { return layout.instances[p.hit.instance].uv.empty(); });
+    const auto lamps = std::ranges::stable_partition(
+        seen, [&](const SeenPoint& p) { return p.surface.emission == glm::vec3(0); });
+    measured = seen.size() - lamps.size();
+    measured = measured > 0 ? measured : seen.size();
     cacheOfTexel.assign(std::size_t(layout.width) * layout.height, ~0U);
     const Caches& caches = bakes.bake->caches;
     for (std::uint32_t c = 0; c < caches.lightmapCount; ++c)
@@ -136,17 +148,37 @@ void Chain::forEachStart(std::size_t pixel, std::uint32_t salt, const Visit& vis
     }
 }
 
-std::optional<Irradiances> Chain::atTexels() const {
+/// Mean of light(point, seed, sample) over the points of the caches that each pixel looks up.
+template <class Light>
+std::optional<Irradiances> Chain::atTexels(const Light& light) const {
     Irradiances result(seen.size());
     const bool done = parallelRanges(
         seen.size(), kGrain, progress, "texels", [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
                 forEachStart(i, 17,
                              [&](const SurfacePoint& p, std::uint32_t seed, std::uint32_t sample) {
-                                 result[i] += truth(p, seed, sample) / float(options.paths);
+                                 result[i] += light(p, seed, sample) / float(options.paths);
                              });
         });
     return done ? std::optional(std::move(result)) : std::nullopt;
+}
+
+std::optional<Irradiances> Chain::truthAtTexels() const {
+    return atTexels([&](const SurfacePoint& p, std::uint32_t seed, std::uint32_t sample) {
+        return truth(p, seed, sample);
+    });
+}
+
+/// Light straight from emissive surfaces at the points of the caches.
+std::optional<Irradiances> Chain::emittedAtTexels() const {
+    return atTexels([&](const SurfacePoint& p, std::uint32_t seed, std::uint32_t sample) {
+        glm::vec3 E(0);
+        for (const IncidentLightSample& light :
+             sampleEmittedLight(trace, sources, p, {mixBits(seed), sample}).samples)
+            if (light.instance != ~0U) // not the sky
+                E += light.irradiance;
+        return E;
+    });
 }
 
 /// Mean direct irradiance at the surfel's light points.
@@ -192,6 +224,15 @@ std::optional<std::vector<glm::vec4>> Chain::trueRadiosity() const {
     return done ? std::optional(std::move(leaves)) : std::nullopt;
 }
 
+/// Radiosity of the tree's leaves by emission alone.
+std::vector<glm::vec4> Chain::emittedRadiosity() const {
+    std::vector<glm::vec3> albedo, emitted;
+    surfelMaterials(bakes.bake->surfels, trace.scene(), albedo, emitted);
+    std::vector<glm::vec4> leaves(bakes.bake->tree.leaves());
+    std::ranges::transform(emitted, leaves.begin(), [](glm::vec3 e) { return withLuma(e); });
+    return leaves;
+}
+
 /// Adds what a random ray from `from` meets. `leaves`: of trueRadiosity().
 void Chain::addSender(const RayGatherer& gatherer, const std::vector<glm::vec4>& leaves,
                       const SurfacePoint& from, std::uint32_t seed, std::uint32_t sample,
@@ -224,7 +265,7 @@ std::optional<std::vector<SendersAt>> Chain::sendersAt(const std::vector<glm::ve
     const BakedSenders& senders = bakes.senders;
     const RayGatherer gatherer(trace, senders.set, bakes.bake->caches, senders.lightmap, 1,
                                senders.owners);
-    std::vector<SumsByDistance> blocks((seen.size() + kGrain - 1) / kGrain);
+    std::vector<SumsByDistance> blocks((measured + kGrain - 1) / kGrain);
     const auto addPixel = [&](std::size_t i) {
         forEachStart(i, 41, [&](const SurfacePoint& p, std::uint32_t seed, std::uint32_t sample) {
             addSender(gatherer, leaves, p, seed, sample, blocks[i / kGrain]);
@@ -232,7 +273,7 @@ std::optional<std::vector<SendersAt>> Chain::sendersAt(const std::vector<glm::ve
     };
     const bool done = parallelRanges(
         blocks.size(), 1, progress, "senders", [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin * kGrain; i < std::min(end * kGrain, seen.size()); ++i)
+            for (std::size_t i = begin * kGrain; i < std::min(end * kGrain, measured); ++i)
                 addPixel(i);
         });
     if (!done)
@@ -286,7 +327,9 @@ Irradiances Chain::relit(const std::shared_ptr<const Bake>& bake) const {
     return lookUpIrradiance(relighter.field(), bake->lightmap, trace.scene(), seen);
 }
 
-EnergyStep compareStep(std::string name, const Irradiances& E, const Irradiances& truth) {
+/// Compares a part of the pixels.
+EnergyStep compareStep(std::string name, std::span<const glm::vec3> E,
+                       std::span<const glm::vec3> truth) {
     double sum = 0, sumTruth = 0, squares = 0;
     for (std::size_t i = 0; i < E.size(); ++i) {
         const glm::vec3 d = E[i] - truth[i];
@@ -304,36 +347,45 @@ EnergyStep compareStep(std::string name, const Irradiances& E, const Irradiances
 
 EnergyChain measureEnergyChain(const TraceScene& trace, const EnergyBakes& bakes,
                                const EnergyOptions& options, const Progress& progress) {
-    const Emitters emitters = findEmitters(trace);
-    const SkyLight sky = findSkyLight(trace.scene().sky);
-    const PathContext paths{trace, emitters, sky};
-    Chain chain{trace, bakes, options, progress, paths};
+    const EmittedLightSources sources = findEmittedLightSources(trace);
+    Chain chain{trace, bakes, options, progress, sources};
     chain.findSeen();
     EnergyChain result;
     result.pixels = chain.seen.size();
     const auto reference = [&](std::uint32_t seed) {
-        return traceIrradiance(paths, chain.seen, options.paths, seed, progress);
+        return traceIrradiance(chain.paths, chain.seen, options.paths, seed, progress);
     };
     const auto first = reference(options.seed + 1), second = reference(options.seed + 2),
-               texels = chain.atTexels();
+               texels = chain.truthAtTexels(), emitted = chain.emittedAtTexels();
     const auto leaves = chain.trueRadiosity();
-    if (!first || !second || !texels || !leaves)
+    if (!first || !second || !texels || !emitted || !leaves)
         return result;
     Irradiances truth(first->size());
     for (std::size_t i = 0; i < truth.size(); ++i)
         truth[i] = ((*first)[i] + (*second)[i]) / 2.f;
-    const double sum = std::transform_reduce(truth.begin(), truth.end(), 0., std::plus<>(), sumOf);
-    const auto senders = chain.sendersAt(*leaves, sum);
+    const auto seen = [&](const Irradiances& E) { return std::span(E).first(chain.measured); };
+    const auto lamps = [&](const Irradiances& E) { return std::span(E).subspan(chain.measured); };
+    const std::span<const glm::vec3> judged = seen(truth);
+    const auto senders = chain.sendersAt(
+        *leaves, std::transform_reduce(judged.begin(), judged.end(), 0., std::plus<>(), sumOf));
     if (!senders)
         return result;
     result.senders = *senders;
-    result.noise = std::abs(compareStep("", *first, truth).energy - 1);
-    result.steps = {compareStep("reference", *first, truth),
-                    compareStep("texels", *texels, truth),
-                    compareStep("surfels", chain.gathered(*bakes.uncut, *leaves), truth),
-                    compareStep("cut", chain.gathered(*bakes.bake, *leaves), truth),
-                    compareStep("bounces, uncut", chain.relit(bakes.uncut), truth),
-                    compareStep("bounces", chain.relit(bakes.bake), truth)};
+    result.noise = std::abs(compareStep("", seen(*first), judged).energy - 1);
+    result.lamps = chain.seen.size() - chain.measured;
+    const auto add = [&](const char* name, const Irradiances& E) {
+        result.steps.push_back(compareStep(name, seen(E), judged));
+        if (result.lamps > 0)
+            result.onLamps.push_back(compareStep(name, lamps(E), lamps(truth)));
+    };
+    add("reference", *first);
+    add("texels", *texels);
+    add("surfels", chain.gathered(*bakes.uncut, *leaves));
+    add("cut", chain.gathered(*bakes.bake, *leaves));
+    add("bounces, uncut", chain.relit(bakes.uncut));
+    add("bounces", chain.relit(bakes.bake));
+    const Irradiances linked = chain.gathered(*bakes.bake, chain.emittedRadiosity());
+    result.emitters = compareStep("emitters", seen(linked), seen(*emitted));
     result.complete = true;
     return result;
 }

@@ -36,6 +36,9 @@ struct EnergyOptions {
     std::uint32_t seed = 1;
 };
 
+/// The pixels that see emissive surfaces are left out of all but `onLamps`, unless the camera sees
+/// nothing else: texels of lamps show what light falls on them, which is of little use, and a small
+/// lamp's few may be far off.
 struct EnergyChain {
     /// "reference": path tracing at the pixels' points. "texels": path tracing at the points of the
     /// lightmap caches that each pixel looks up, so interpolation alone differs. "surfels": caches
@@ -43,11 +46,17 @@ struct EnergyChain {
     /// "cut": the same through the bake's own links. "bounces": relighting, as in the picture.
     /// "bounces, uncut": relighting through one link for each sender.
     std::vector<EnergyStep> steps;
+    std::vector<EnergyStep> onLamps; ///< the same of the pixels left out; empty where none are
+    /// Light straight from emissive surfaces: what the bake's links bring to the caches that pixels
+    /// look up, against samples of the emissive surfaces at the caches' points. Energy 0 where
+    /// nothing emits.
+    EnergyStep emitters;
     /// By ascending distance. Their `excess` sums to about what "surfels" gains over "texels".
     /// Light of the sky is not among them.
     std::vector<SendersAt> senders;
     double noise = 0;         ///< standard error of the reference's mean, relative
     std::uint64_t pixels = 0; ///< number that see a surface with a lightmap
+    std::uint64_t lamps = 0;  ///< of these, number in `onLamps`
     bool complete = false;    ///< false when cancelled
 };
 

@@ -38,6 +38,9 @@ struct Measured {
     Scene scene = furnace();
     TraceScene trace{scene};
 
+    Measured() = default;
+    explicit Measured(Scene other) : scene(std::move(other)) {}
+
     Bake baked(CutCriterion cut, std::uint32_t links) const {
         BakeSettings settings = scene.bake;
         settings.cut = cut;
@@ -70,9 +73,11 @@ struct Measured {
 
     /// By name.
     std::map<std::string, EnergyStep> steps(Bake bake, Bake all) const {
+        const EnergyChain measured = chain(std::move(bake), std::move(all));
         std::map<std::string, EnergyStep> result;
-        for (const EnergyStep& s : chain(std::move(bake), std::move(all)).steps)
+        for (const EnergyStep& s : measured.steps)
             result[s.name] = s;
+        result["emitters"] = measured.emitters;
         return result;
     }
 };
@@ -99,6 +104,7 @@ TEST(EnergyChain, ALossIsShownAtTheStepThatHasIt) {
     for (const char* name : {"reference", "texels", "surfels", "bounces, uncut"})
         EXPECT_NEAR(steps.at(name).energy, 1, 0.01) << name;
     EXPECT_NEAR(steps.at("cut").energy, 0.5, 0.01);
+    EXPECT_NEAR(steps.at("emitters").energy, 0.5, 0.01);
     // E = (pi L + E / 2) / 2 gives 2/3 pi L instead of 2 pi L.
     EXPECT_NEAR(steps.at("bounces").energy, 1 / 3., 0.01);
 
@@ -109,6 +115,36 @@ TEST(EnergyChain, ALossIsShownAtTheStepThatHasIt) {
     EXPECT_NEAR(others.at("cut").energy, 1, 0.01);
     EXPECT_NEAR(others.at("bounces, uncut").energy, 1 / 3., 0.01);
     EXPECT_NEAR(others.at("bounces").energy, 1, 0.01);
+    EXPECT_NEAR(others.at("emitters").energy, 1, 0.01);
+}
+
+// A lamp that reflects nothing covers a wall, so that no other surface reads its texels.
+TEST(EnergyChain, TexelsOfLampsAreListedApart) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.addMaterial(lambert(glm::vec3(0), glm::vec3(1)));
+    b.add(box(glm::vec3(0), glm::vec3(4, 3, 5), true));
+    b.add(quad({0.01f, 0, 0}, {0, 3, 0}, {0, 0, 5}, 1));
+    Scene scene = b.build();
+    scene.bake = furnace().bake;
+    const Measured m(scene);
+    Bake bright = m.cut();
+    for (std::size_t c = 0; c < bright.caches.lightmapCount; ++c)
+        if (bright.caches.position[c].x > 0.005f && bright.caches.position[c].x < 0.015f &&
+            bright.caches.normal[c].x > 0.9f)
+            bright.caches.linkExponent[c] -= 3;
+    const EnergyChain chain = m.chain(bright, m.uncut());
+    EXPECT_GT(chain.lamps, 20U);
+    EXPECT_LT(chain.lamps, chain.pixels - 20);
+    ASSERT_EQ(chain.onLamps.size(), chain.steps.size());
+    for (std::size_t k = 0; k < chain.steps.size(); ++k) {
+        const EnergyStep &step = chain.steps[k], &onLamps = chain.onLamps[k];
+        EXPECT_EQ(onLamps.name, step.name);
+        EXPECT_NEAR(step.energy, 1, 0.03) << step.name;
+        const bool reads = step.name == "cut" || step.name == "bounces";
+        EXPECT_NEAR(onLamps.energy, reads ? 8 : 1, reads ? 0.8 : 0.1) << step.name;
+    }
+    EXPECT_NEAR(chain.emitters.energy, 1, 0.03);
 }
 
 TEST(EnergyChain, SendersOfAllDistancesAreRightInAFurnace) {
