@@ -3,6 +3,7 @@
 
 #include "engine/export/vector_json.h"
 
+#include <limits>
 #include <vector>
 
 #include <glm/common.hpp>
@@ -15,14 +16,20 @@ namespace {
 constexpr int kVertexTarget = 34962, kIndexTarget = 34963;
 constexpr int kFloat = 5126, kUint16 = 5123, kUint32 = 5125;
 
+/// Returns the index of the view, which has no target yet.
+std::size_t appendView(GltfBuffer& buffer, const void* data, std::size_t size) {
+    buffer.bytes.resize((buffer.bytes.size() + 3) / 4 * 4, '\0');
+    buffer.views.push_back(
+        {{"buffer", 0}, {"byteOffset", buffer.bytes.size()}, {"byteLength", size}});
+    buffer.bytes.append(static_cast<const char*>(data), size);
+    return buffer.views.size() - 1;
+}
+
 std::size_t append(GltfBuffer& buffer, const void* data, std::size_t size, int target,
                    Json accessor) {
-    buffer.bytes.resize((buffer.bytes.size() + 3) / 4 * 4, '\0');
-    Json view = {{"buffer", 0}, {"byteOffset", buffer.bytes.size()}, {"byteLength", size}};
-    view["target"] = target;
-    buffer.bytes.append(static_cast<const char*>(data), size);
-    accessor["bufferView"] = buffer.views.size();
-    buffer.views.push_back(std::move(view));
+    const std::size_t view = appendView(buffer, data, size);
+    buffer.views[view]["target"] = target;
+    accessor["bufferView"] = view;
     buffer.accessors.push_back(std::move(accessor));
     return buffer.accessors.size() - 1;
 }
@@ -31,6 +38,11 @@ template <class T>
 std::size_t addFloats(GltfBuffer& buffer, std::span<const T> values, const char* type) {
     return append(buffer, values.data(), values.size_bytes(), kVertexTarget,
                   {{"componentType", kFloat}, {"count", values.size()}, {"type", type}});
+}
+
+void putWord(std::string& out, std::uint64_t word) {
+    for (int shift = 0; shift < 32; shift += 8)
+        out += char(word >> shift);
 }
 
 } // namespace
@@ -67,6 +79,33 @@ std::size_t GltfBuffer::addIndices(std::span<const std::uint32_t> values, std::s
     accessor["componentType"] = kUint16;
     return append(*this, narrow.data(), narrow.size() * sizeof(std::uint16_t), kIndexTarget,
                   accessor);
+}
+
+std::size_t GltfBuffer::addFile(std::string_view file) {
+    return appendView(*this, file.data(), file.size());
+}
+
+// glTF 2.0 specification, section 4 "GLB File Format Specification".
+Result<std::string> binaryGltf(const Json& document, const std::string& buffer) {
+    constexpr std::uint32_t kMagic = 0x46546c67, kVersion = 2, kJson = 0x4e4f534a, kBin = 0x4e4942;
+    std::string json = document.dump();
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::size_t padded = (buffer.size() + 3) / 4 * 4;
+    const std::uint64_t length = 12 + 8 + std::uint64_t(json.size()) + 8 + padded;
+    if (length > std::numeric_limits<std::uint32_t>::max())
+        return fail("a .glb file holds 4 GiB at most; write a .gltf file");
+    std::string out;
+    out.reserve(length);
+    for (const std::uint64_t word : {std::uint64_t(kMagic), std::uint64_t(kVersion), length})
+        putWord(out, word);
+    putWord(out, json.size());
+    putWord(out, kJson);
+    out += json;
+    putWord(out, padded);
+    putWord(out, kBin);
+    out += buffer;
+    out.resize(length, '\0');
+    return out;
 }
 
 } // namespace limn

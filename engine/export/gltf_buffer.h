@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/result.h"
 #include "engine/json/json.h"
 
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -28,6 +30,13 @@ struct GltfBuffer {
 
     /// Vertex indices, with 16 bits each if there are fewer than 65 535 vertices.
     std::size_t addIndices(std::span<const std::uint32_t> values, std::size_t vertices);
+
+    /// A file, without an accessor. Returns the index of its view.
+    std::size_t addFile(std::string_view file);
 };
+
+/// A binary glTF file (.glb) of a document whose only buffer, without a URI, is `buffer`. Fails
+/// where its lengths, which have 32 bits, do not suffice.
+Result<std::string> binaryGltf(const Json& document, const std::string& buffer);
 
 } // namespace limn

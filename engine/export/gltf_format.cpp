@@ -8,7 +8,7 @@
 namespace limn {
 namespace gltf_format {
 
-static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
+static constexpr std::array<std::string_view, 2> kExtensions = {".gltf", ".glb"};
 static constexpr std::array<std::string_view, 8> kSettings = {
     "encoding", "compress", "quantity", "direct", "bands", "layers", "detail", "maxSize"};
 
@@ -24,7 +24,8 @@ constinit const ExportFormat kGltfFormat = {
     .name = "gltf",
     .label = "glTF with lightmap",
     .summary = "The scene with texture coordinates for its lightmap, and the lightmap beside it. "
-               "Lights, cameras and emission use the Khronos extensions",
+               "Lights, cameras and emission use the Khronos extensions. A .glb file holds all "
+               "but the lightmap",
     .extensions = gltf_format::kExtensions,
     .settings = gltf_format::kSettings,
     .write = gltf_format::write,

@@ -224,8 +224,24 @@ void addArray(Json& json, const char* key, Json& array) {
         json[key] = std::move(array);
 }
 
-Json documentJson(GltfScene& gltf, const std::string& bufferName,
-                  const std::vector<ExportFile>& images) {
+/// Puts images into the buffer and returns what names them there.
+Json packedImages(GltfScene& gltf, const std::vector<ExportFile>& images) {
+    Json list = Json::array();
+    for (const ExportFile& image : images)
+        list.push_back(
+            {{"bufferView", gltf.buffer.addFile(image.bytes)}, {"mimeType", "image/png"}});
+    return list;
+}
+
+Json namedImages(const std::vector<ExportFile>& images) {
+    Json list = Json::array();
+    for (const ExportFile& image : images)
+        list.push_back({{"uri", uriOf(image.name)}});
+    return list;
+}
+
+/// `bufferName` is empty where the buffer is part of the file.
+Json documentJson(GltfScene& gltf, const std::string& bufferName, Json imageList) {
     const glm::dvec3 origin = gltf.in.document.origin;
     Json children = Json::array();
     for (std::size_t n = 0; n < gltf.nodes.size(); ++n)
@@ -253,11 +269,11 @@ Json documentJson(GltfScene& gltf, const std::string& bufferName,
     addArray(json, "materials", gltf.materials.materials);
     addArray(json, "textures", gltf.materials.textures);
     addArray(json, "samplers", gltf.materials.samplers);
-    Json imageList = Json::array();
-    for (const ExportFile& image : images)
-        imageList.push_back({{"uri", uriOf(image.name)}});
     addArray(json, "images", imageList);
-    json["buffers"] = {{{"uri", uriOf(bufferName)}, {"byteLength", gltf.buffer.bytes.size()}}};
+    Json buffer = {{"byteLength", gltf.buffer.bytes.size()}};
+    if (!bufferName.empty())
+        buffer["uri"] = uriOf(bufferName);
+    json["buffers"] = Json::array({std::move(buffer)});
     json["bufferViews"] = std::move(gltf.buffer.views);
     json["accessors"] = std::move(gltf.buffer.accessors);
     return json;
@@ -309,9 +325,18 @@ Result<std::vector<ExportFile>> gltfFiles(const ExportScene& scene, const GltfOp
     Result<std::vector<ExportFile>> images = imageFiles(gltf, stem, progress);
     if (!images)
         return images;
-    const std::string bufferName = stem + "-geometry.bin";
-    const Json json = documentJson(gltf, bufferName, *images);
     std::vector<ExportFile> files;
+    if (name.ends_with(".glb")) {
+        Json list = packedImages(gltf, *images);
+        const Json json = documentJson(gltf, "", std::move(list));
+        Result<std::string> packed = binaryGltf(json, gltf.buffer.bytes);
+        if (!packed)
+            return tl::make_unexpected(packed.error());
+        files.push_back({name, std::move(*packed)});
+        return files;
+    }
+    const std::string bufferName = stem + "-geometry.bin";
+    const Json json = documentJson(gltf, bufferName, namedImages(*images));
     files.push_back({name, json.dump(1) + "\n"});
     files.push_back({bufferName, std::move(gltf.buffer.bytes)});
     for (ExportFile& image : *images)

@@ -20,14 +20,14 @@ struct GltfOptions {
     Json extras; ///< asset.extras.limn: what the light beside the file means
 };
 
-/// The scene as glTF 2.0: `name`, a buffer, and its textures as PNG files. Each instance is a node
-/// with a mesh of its own, because texture coordinates of a lightmap belong to instances;
-/// attributes that instances share are stored once. Vertices are split along the lightmap's charts.
-/// Two-sided surfaces with a lightmap become two one-sided ones. An instance whose charts lie on
-/// several pages of the lightmap becomes a node for each; materials exist once for each page, and
-/// extras.limn.lightmapPage says which, unless it is the first. Lights, cameras and emission are
-/// written by KHR_lights_punctual, glTF cameras and KHR_materials_emissive_strength. Fails for a
-/// scene without surfaces, and when cancelled.
+/// The scene as glTF 2.0: `name`, a buffer, and its textures as PNG files, or all of it in `name`
+/// where that ends in ".glb". Each instance is a node with a mesh of its own, because texture
+/// coordinates of a lightmap belong to instances; attributes that instances share are stored once.
+/// Vertices are split along the lightmap's charts. Two-sided surfaces with a lightmap become two
+/// one-sided ones. An instance whose charts lie on several pages of the lightmap becomes a node for
+/// each; materials exist once for each page, and extras.limn.lightmapPage says which, unless it is
+/// the first. Lights, cameras and emission are written by KHR_lights_punctual, glTF cameras and
+/// KHR_materials_emissive_strength. Fails for a scene without surfaces, and when cancelled.
 Result<std::vector<ExportFile>> gltfFiles(const ExportScene& scene, const GltfOptions& options,
                                           const std::string& name, const Progress& progress);
 

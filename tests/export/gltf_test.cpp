@@ -33,12 +33,12 @@ protected:
         room = std::make_unique<ExportedRoom>(std::move(d), assets);
     }
     /// Exports, writes and imports.
-    ImportedScene reimported(const ExportSettings& settings = {}) {
+    ImportedScene reimported(const ExportSettings& settings = {}, const char* name = "room.gltf") {
         const ExportFormat& format = *findExportFormat("gltf");
-        files = *format.write(room->view(), settings, "room.gltf", {});
-        const Result<void> written = writeExport(folder.file("room.gltf"), format, files);
+        files = *format.write(room->view(), settings, name, {});
+        const Result<void> written = writeExport(folder.file(name), format, files);
         EXPECT_TRUE(written) << written.error().message;
-        Result<ImportedScene> read = importGltf(folder.file("room.gltf"));
+        Result<ImportedScene> read = importGltf(folder.file(name));
         EXPECT_TRUE(read) << read.error().message;
         EXPECT_TRUE(read->repairs.empty()) << read->repairs.front();
         return std::move(*read);
@@ -102,6 +102,33 @@ TEST_F(Gltf, IsImportedAgainWithTheSameSurfaces) {
             EXPECT_FLOAT_EQ(m.metallic, 0.5f);
             EXPECT_FLOAT_EQ(m.roughness, 0.25f);
         }
+}
+
+TEST_F(Gltf, PackedFilesHoldAllButTheLightmap) {
+    auto textured = std::make_shared<Assets>(*room->scene.assets);
+    textured->images.push_back(
+        {.name = "colours", .width = 2, .height = 1, .rgba = {9, 99, 199, 255, 1, 2, 3, 255}});
+    room->scene.assets = textured;
+    room->scene.materials[0].baseColorTexture.image = 0;
+    const ImportedScene parts = reimported(), packed = reimported({}, "packed.glb");
+    ASSERT_EQ(files.size(), 2U);
+    EXPECT_EQ(files[0].name, "packed.glb");
+    EXPECT_EQ(files[0].bytes.size() % 4, 0U);
+    EXPECT_EQ(files[1].name, "packed-lightmap.exr");
+    const Scene a = flatten(parts.document, parts.assets),
+                b = flatten(packed.document, packed.assets);
+    ASSERT_EQ(a.instances.size(), b.instances.size());
+    for (std::size_t i = 0; i < a.instances.size(); ++i) {
+        EXPECT_EQ(a.instances[i].toWorld, b.instances[i].toWorld);
+        EXPECT_EQ(a.meshOf(a.instances[i]).positions, b.meshOf(b.instances[i]).positions);
+        EXPECT_EQ(a.meshOf(a.instances[i]).indices, b.meshOf(b.instances[i]).indices);
+        EXPECT_EQ(a.materialOf(a.instances[i]), b.materialOf(b.instances[i]));
+    }
+    EXPECT_EQ(a.lights, b.lights);
+    EXPECT_GT(a.assets->images.size(), 0U);
+    ASSERT_EQ(a.assets->images.size(), b.assets->images.size());
+    for (std::size_t i = 0; i < a.assets->images.size(); ++i)
+        EXPECT_EQ(a.assets->images[i].rgba, b.assets->images[i].rgba);
 }
 
 TEST_F(Gltf, GlassComesBackAsItWas) {
