@@ -68,11 +68,11 @@ TEST_F(Bc6hOnDevice, AreDecodedToTheSameBitsInAllModes) {
             const std::uint32_t code = kCodes[k % kCodes.size()], mask = code < 2 ? 3 : 31;
             blocks[k][0] = std::uint8_t((blocks[k][0] & ~mask) | code);
         }
-        const std::vector<glm::vec4> device = decoded(blocks, format);
+        const std::vector<glm::vec4> drawn = decoded(blocks, format);
         for (std::size_t k = 0; k < blocks.size(); ++k) {
             const Bc6hTexels texels = decodeBc6h(blocks[k], sign);
             for (std::size_t i = 0; i < texels.size(); ++i)
-                ASSERT_EQ(glm::vec3(device[i / 4 * 4 * blocks.size() + 4 * k + i % 4]), texels[i])
+                ASSERT_EQ(glm::vec3(drawn[i / 4 * 4 * blocks.size() + 4 * k + i % 4]), texels[i])
                     << "mode " << kCodes[k % kCodes.size()] << ", texel " << i;
         }
     }
