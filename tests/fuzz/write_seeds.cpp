@@ -303,7 +303,8 @@ void writeStageChanges(const TemporaryFolder&, const auto& write) {
 }
 
 void writeTextures(const TemporaryFolder&, const auto& write) {
-    for (const Ktx2Format format : {Ktx2Format::Rgba16f, Ktx2Format::Rgba32f, Ktx2Format::Rgb9e5})
+    for (const Ktx2Format format : {Ktx2Format::Rgba16f, Ktx2Format::Rgba32f, Ktx2Format::Rgb9e5,
+                                    Ktx2Format::Bc6hUnsigned, Ktx2Format::Bc6hSigned})
         for (const bool zstd : {false, true}) {
             const std::string name = std::to_string(std::uint32_t(format)) + (zstd ? "_zstd" : "");
             for (const auto& [layers, depth] : {std::pair(0U, 0U), {2, 0}, {0, 2}}) {
