@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/gltf_buffer.h"
 
+#include "engine/core/append_word.h"
 #include "engine/export/vector_json.h"
 
 #include <limits>
@@ -38,11 +39,6 @@ template <class T>
 std::size_t addFloats(GltfBuffer& buffer, std::span<const T> values, const char* type) {
     return append(buffer, values.data(), values.size_bytes(), kVertexTarget,
                   {{"componentType", kFloat}, {"count", values.size()}, {"type", type}});
-}
-
-void putWord(std::string& out, std::uint64_t word) {
-    for (int shift = 0; shift < 32; shift += 8)
-        out += char(word >> shift);
 }
 
 } // namespace
@@ -96,13 +92,13 @@ Result<std::string> binaryGltf(const Json& document, const std::string& buffer) 
         return fail("a .glb file holds 4 GiB at most; write a .gltf file");
     std::string out;
     out.reserve(length);
-    for (const std::uint64_t word : {std::uint64_t(kMagic), std::uint64_t(kVersion), length})
-        putWord(out, word);
-    putWord(out, json.size());
-    putWord(out, kJson);
+    for (const std::uint32_t word : {kMagic, kVersion, std::uint32_t(length)})
+        appendWord(out, word);
+    appendWord(out, std::uint32_t(json.size()));
+    appendWord(out, kJson);
     out += json;
-    putWord(out, padded);
-    putWord(out, kBin);
+    appendWord(out, std::uint32_t(padded));
+    appendWord(out, kBin);
     out += buffer;
     out.resize(length, '\0');
     return out;

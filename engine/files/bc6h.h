@@ -15,7 +15,7 @@ namespace limn {
 using Bc6hBlock = std::array<std::uint8_t, 16>;
 using Bc6hTexels = std::array<glm::vec3, 16>;
 
-/// Whether values may be negative. What is negative becomes 0 without.
+/// Whether a texture holds negative values. Where it does not, they are encoded as 0.
 enum class Bc6hSign : std::uint8_t { Unsigned, Signed };
 
 /// Texels of a block. All are finite but for the signed -infinity, which the format can hold and

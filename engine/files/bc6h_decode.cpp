@@ -54,7 +54,7 @@ Ends readEnds(BitReader& bits, const Bc6hMode& mode, Bc6hSign sign) {
     return ends;
 }
 
-/// What a number on a line is the half float of.
+/// The half float that an interpolated number is decoded to.
 float finished(std::int32_t value, Bc6hSign sign) {
     if (sign == Bc6hSign::Unsigned)
         return halfToFloat(std::uint16_t(value * 31 >> 6));

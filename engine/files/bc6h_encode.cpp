@@ -22,7 +22,7 @@ constexpr std::size_t kPartitionsTried = 4;
 /// Share of the brightest channel below which light is not weighted less.
 constexpr float kFloor = 1.f / 16;
 
-/// A half float as the number on a line that is decoded to it: the middle of all such.
+/// The middle of the interpolated numbers that are decoded to a value's half float.
 float lineNumber(float value, Bc6hSign sign) {
     const float finite = std::isnan(value) ? 0 : std::clamp(value, -65504.f, 65504.f);
     if (sign == Bc6hSign::Unsigned)
@@ -44,16 +44,17 @@ struct Block {
 
 Block blockOf(const Bc6hTexels& values, Bc6hSign sign) {
     Block block;
+    Bc6hTexels sizes;
     float brightest = 0;
     for (std::uint32_t i = 0; i < 16; ++i)
         for (int c = 0; c < 3; ++c) {
             block.texels[i][c] = lineNumber(values[i][c], sign);
             const float size = std::abs(values[i][c]);
-            block.weights[i][c] = std::isnan(size) ? 0 : std::min(size, 65504.f);
-            brightest = std::max(brightest, block.weights[i][c]);
+            sizes[i][c] = std::isnan(size) ? 0 : std::min(size, 65504.f);
+            brightest = std::max(brightest, sizes[i][c]);
         }
     for (std::uint32_t i = 0; i < 16; ++i) {
-        const glm::vec3 share = brightest > 0 ? block.weights[i] / brightest : glm::vec3(1);
+        const glm::vec3 share = brightest > 0 ? sizes[i] / brightest : glm::vec3(1);
         block.weights[i] = (share + kFloor) * (share + kFloor);
         block.weight[i] = (block.weights[i].x + block.weights[i].y + block.weights[i].z) / 3;
     }

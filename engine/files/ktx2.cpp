@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/ktx2.h"
 
+#include "engine/core/append_word.h"
 #include "engine/core/parallel.h"
 #include "engine/files/bc6h.h"
 #include "engine/files/ktx2_layout.h"
@@ -20,14 +21,9 @@ namespace {
 
 constexpr int kZstdLevel = 12; ///< twice the time of the default, 5 % smaller lightmaps
 
-void putWord(std::string& out, std::uint32_t word) {
-    for (int shift = 0; shift < 32; shift += 8)
-        out += char(word >> shift);
-}
-
 void putLong(std::string& out, std::uint64_t value) {
-    putWord(out, std::uint32_t(value));
-    putWord(out, std::uint32_t(value >> 32));
+    appendWord(out, std::uint32_t(value));
+    appendWord(out, std::uint32_t(value >> 32));
 }
 
 void padTo(std::string& out, std::size_t alignment) {
@@ -40,12 +36,12 @@ float orZero(float v) {
 
 void putTexel(std::string& out, Ktx2Format format, const glm::vec4& texel) {
     if (format == Ktx2Format::Rgb9e5)
-        return putWord(out, packRgb9e5(glm::vec3(texel)));
+        return appendWord(out, packRgb9e5(glm::vec3(texel)));
     for (int c = 0; c < 4; ++c) {
         const float v = orZero(texel[c]);
         if (format == Ktx2Format::Rgba32f) {
             constexpr float kMost = std::numeric_limits<float>::max();
-            putWord(out, std::bit_cast<std::uint32_t>(std::clamp(v, -kMost, kMost)));
+            appendWord(out, std::bit_cast<std::uint32_t>(std::clamp(v, -kMost, kMost)));
         } else {
             const std::uint16_t half = floatToHalf(std::clamp(v, -65504.f, 65504.f));
             out += char(half);
@@ -63,7 +59,7 @@ glm::vec4 withAlpha(const glm::vec3& texel) {
 
 void putKey(std::string& out, const std::string& key, const std::string& value) {
     const std::string pair = key + '\0' + value + '\0';
-    putWord(out, std::uint32_t(pair.size()));
+    appendWord(out, std::uint32_t(pair.size()));
     out += pair;
     padTo(out, 4);
 }
@@ -91,7 +87,7 @@ std::string headOf(const Ktx2Shape& shape, std::uint64_t bytes, std::uint64_t st
          {std::uint32_t(shape.format), ktx2TypeSize(shape.format), shape.width, shape.height,
           shape.depth, shape.layers, 1U, 1U, shape.zstd ? kKtx2Zstd : 0U, dfdOffset,
           std::uint32_t(descriptor.size()), kvdOffset, std::uint32_t(keys.size())})
-        putWord(out, word);
+        appendWord(out, word);
     putLong(out, 0); // no global supercompression data
     putLong(out, 0);
     const std::size_t alignment = shape.zstd ? 1 : ktx2BlockBytes(shape.format);
@@ -108,8 +104,7 @@ std::string headOf(const Ktx2Shape& shape, std::uint64_t bytes, std::uint64_t st
 /// Blocks by layer, row and column. What lies beyond an edge repeats it.
 template <class Texel>
 std::string blocksOf(const Ktx2Shape& shape, std::span<const Texel> texels) {
-    const Bc6hSign sign =
-        shape.format == Ktx2Format::Bc6hSigned ? Bc6hSign::Signed : Bc6hSign::Unsigned;
+    const Bc6hSign sign = bc6hSignOf(shape.format);
     const std::size_t columns = (shape.width + 3) / 4, rows = (shape.height + 3) / 4;
     std::string bytes(shape.bytes(), '\0');
     parallelRanges(

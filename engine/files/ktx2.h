@@ -41,16 +41,15 @@ struct Ktx2Shape {
     std::uint32_t depth = 0;             ///< slices of a 3D texture; 0: not 3D
     bool zstd = false;                   ///< the texels are compressed with Zstandard
 
-    /// Number of texels in all layers or slices.
-    std::uint64_t texels() const {
-        const std::uint64_t images = depth > 0 ? depth : layers > 0 ? layers : 1;
-        return std::uint64_t(width) * height * images;
-    }
-    /// Bytes of all layers or slices, not compressed with Zstandard.
+    /// Number of layers or slices, at least 1.
+    std::uint64_t images() const { return depth > 0 ? depth : layers > 0 ? layers : 1; }
+    /// Number of texels in all of them.
+    std::uint64_t texels() const { return std::uint64_t(width) * height * images(); }
+    /// Their bytes, not compressed with Zstandard.
     std::uint64_t bytes() const {
         const std::uint32_t side = ktx2BlockSide(format);
         const std::uint64_t columns = (width + side - 1) / side, rows = (height + side - 1) / side;
-        return texels() / (std::uint64_t(width) * height) * columns * rows * ktx2BlockBytes(format);
+        return images() * columns * rows * ktx2BlockBytes(format);
     }
     bool operator==(const Ktx2Shape&) const = default;
 };

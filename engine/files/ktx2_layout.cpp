@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/ktx2_layout.h"
 
+#include "engine/core/append_word.h"
+
 #include <bit>
 #include <vector>
 
@@ -55,11 +57,6 @@ std::vector<Sample> samplesOf(Ktx2Format format) {
     return {};
 }
 
-void put(std::string& out, std::uint32_t word) {
-    for (int shift = 0; shift < 32; shift += 8)
-        out += char(word >> shift);
-}
-
 } // namespace
 
 std::uint32_t ktx2BlockSide(Ktx2Format format) {
@@ -92,18 +89,18 @@ std::string ktx2Descriptor(Ktx2Format format, bool sized) {
     const std::vector<Sample> samples = samplesOf(format);
     const auto block = std::uint32_t(24 + 16 * samples.size());
     std::string out;
-    put(out, 4 + block);
-    put(out, 0); // vendor: Khronos; type: basic format
-    put(out, kVersion | block << 16);
-    put(out, (side > 1 ? kBc6h : kRgbsda) | kBt709 << 8 | kLinear << 16);
-    put(out, (side - 1) | (side - 1) << 8); // of side x side x 1 x 1 texels
-    put(out, sized ? ktx2BlockBytes(format) : 0);
-    put(out, 0);
+    appendWord(out, 4 + block);
+    appendWord(out, 0); // vendor: Khronos; type: basic format
+    appendWord(out, kVersion | block << 16);
+    appendWord(out, (side > 1 ? kBc6h : kRgbsda) | kBt709 << 8 | kLinear << 16);
+    appendWord(out, (side - 1) | (side - 1) << 8); // of side x side x 1 x 1 texels
+    appendWord(out, sized ? ktx2BlockBytes(format) : 0);
+    appendWord(out, 0);
     for (const Sample& s : samples) {
-        put(out, s.bitOffset | (s.bits - 1) << 16 | s.channel << 24);
-        put(out, 0); // position within the texel
-        put(out, s.lower);
-        put(out, s.upper);
+        appendWord(out, s.bitOffset | (s.bits - 1) << 16 | s.channel << 24);
+        appendWord(out, 0); // position within the texel
+        appendWord(out, s.lower);
+        appendWord(out, s.upper);
     }
     return out;
 }

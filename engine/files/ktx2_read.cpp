@@ -170,8 +170,7 @@ glm::vec4 texelAt(Bytes texels, Ktx2Format format, std::size_t i, bool& finite) 
 
 void readBlocks(Bytes bytes, Ktx2Texture& texture) {
     const Ktx2Shape& shape = texture.shape;
-    const Bc6hSign sign =
-        shape.format == Ktx2Format::Bc6hSigned ? Bc6hSign::Signed : Bc6hSign::Unsigned;
+    const Bc6hSign sign = bc6hSignOf(shape.format);
     const std::size_t columns = (shape.width + 3) / 4, rows = (shape.height + 3) / 4;
     Bc6hBlock block;
     for (std::size_t b = 0; b < bytes.size() / block.size(); ++b) {

@@ -21,13 +21,13 @@ struct DrawKey {
 };
 
 /// Says which draws of a light an update renews where SkinSettings::renew is less than 1: a part of
-/// them, in turn, until all are of the importance that they are to be of. The other draws keep
-/// their cells and weights, so that what the map shows there lights the caches at once.
+/// them, in turn, until all follow the importance of the present map. The other draws keep the
+/// texels that they chose and their weights; the light of these texels is the present map's.
 class DrawRenewal {
 public:
     /// All draws are out of date.
     void begin(const DrawKey& key);
-    /// Whether any are.
+    /// Whether any draws are.
     bool isDue() const { return m_due > 0; }
     /// The draws to renew now. Precondition: isDue().
     DrawBlock next();

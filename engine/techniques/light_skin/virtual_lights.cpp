@@ -28,7 +28,7 @@ VirtualLights castVirtualLights(const TraceScene& trace, const Scene& scene, con
                                 std::uint32_t mapSize, const Progress& progress) {
     const ReflectiveShadowMap map = castRsm(trace, scene, light, mapSize, progress);
     VirtualLights lights{.rays = map.rays};
-    // The whole raster, whatever the light sees: cells then keep their numbers when it moves.
+    // The whole raster, whatever the light sees: texels then keep their numbers when it moves.
     const std::vector<RsmView> views =
         rsmViews(light, scene.bounds, mapSize, [](glm::vec3 p, glm::vec3) { return p; });
     lights.rows = views.empty() ? 0 : views[0].size;
