@@ -2,43 +2,29 @@
 #include "engine/picture/final_gather.h"
 
 #include "engine/core/parallel.h"
-#include "engine/lightmap/near_reach.h"
 #include "engine/picture/final_gather_walk.h"
-#include "engine/shading/direct_light.h"
+#include "engine/picture/gather_stages.h"
+#include "engine/picture/part_sink.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <glm/gtc/constants.hpp>
 
 namespace limn {
-
-/// A pixel whose first stage has a standard error of this part of the picture's mean light gets as
-/// many samples again, and others in proportion, up to kMaxSecondStage times as many.
-static constexpr double kErrorToDouble = 0.125, kMaxSecondStage = 255;
-
-/// Rays of a pixel's second stage; fewer are not worth taking.
-static constexpr std::uint32_t kMinRays = 16;
 
 static bool asksForIt(const FieldRenderOptions& options) {
     return options.emitted && options.gatherRays > 0 && options.samplesPerPixel > 1 &&
            showsBouncedLight(options.view);
 }
 
-static std::vector<float> texelWidths(const Scene& scene, const LightmapLayout& layout) {
-    std::vector<float> widths = nearReaches(scene, layout);
-    for (float& width : widths)
-        width *= 2;
-    return widths;
-}
-
 FinalGather::FinalGather(const TraceScene& trace, const IndirectField& field,
                          const LightmapLayout& layout, const FieldRenderOptions& options)
     : m_trace(trace), m_field(field), m_layout(layout), m_options(options),
-      m_sources(asksForIt(options) ? findEmittedLightSources(trace) : EmittedLightSources{}),
-      m_any(asksForIt(options) &&
-            (m_sources.any || std::ranges::any_of(trace.scene().lights, shines))),
-      m_widths(m_any ? texelWidths(trace.scene(), layout) : std::vector<float>()),
+      m_gather(asksForIt(options) ? std::optional(gatherScene(trace, field, *options.emitted,
+                                                              layout, options.gatherRays))
+                                  : std::nullopt),
+      m_any(m_gather &&
+            (m_gather->sources.any || std::ranges::any_of(trace.scene().lights, shines))),
       m_rays(options.camera, options.width, options.height) {
     if (m_any)
         m_meanLight = meanLight();
@@ -67,42 +53,6 @@ double FinalGather::meanLight() const {
     return sum / (kColumns * kRows);
 }
 
-/// A sink that adds up the light of each part, which draws the picture. Of all lights it samples
-/// one. Unless `rays` is null, it adds to it each ray and the light that the ray brings.
-struct FinalGather::PartSink {
-    const TraceScene& trace;
-    std::vector<RayLight>* rays = nullptr;
-    std::array<glm::vec3, kGatherParts> sums{};
-    RayLight* ray = nullptr; ///< the last of `rays` while it is followed
-
-    static constexpr bool reflects(std::uint32_t /*instance*/) { return true; }
-
-    void rayBegins(const EmittedLightSample& sample) {
-        if (rays && sample.weight > 0)
-            ray = &rays->emplace_back(RayLight{sample.direction, sample.samples[2].pdf, 0});
-    }
-    void rayEnds() { ray = nullptr; }
-    void add(glm::vec3 light, GatherPart part) {
-        sums[part] += light;
-        if (ray)
-            ray->light += channelSum(light);
-    }
-    void fieldIrradiance(const FieldPoint& point, glm::vec3 weight, GatherPart part) {
-        add(weight * sampleIrradiance(point), part);
-    }
-    void gatheredDirectLight(const SurfacePoint& p, const LightNumbers& numbers, glm::vec3 weight,
-                             std::uint32_t /*via*/) {
-        std::uint64_t shadowRays = 0;
-        add(weight *
-                sampleDirectLight(trace, p, numbers.pick, numbers.onLight, shadowRays).irradiance,
-            Bounced);
-    }
-    void gatheredEmission(const IncidentLightSample& /*sample*/, glm::vec3 light, GatherPart part,
-                          std::uint32_t /*via*/) {
-        add(light, part);
-    }
-};
-
 GatherSamples FinalGather::take(glm::uvec2 pixel, std::uint32_t begin, std::uint32_t count,
                                 const LightGuide* guide, std::vector<RayLight>* learned) const {
     GatherSamples taken;
@@ -123,39 +73,18 @@ GatherSamples FinalGather::take(glm::uvec2 pixel, std::uint32_t begin, std::uint
     return taken;
 }
 
-/// The number of second-stage samples of a pixel whose first-stage samples have this variance.
-std::uint32_t FinalGather::secondStageCount(double variance) const {
-    if (!(m_meanLight > 0))
-        return 0;
-    const std::uint32_t count = m_options.samplesPerPixel;
-    const double times = std::sqrt(variance / count) / (kErrorToDouble * m_meanLight);
-    const auto second = std::uint32_t(std::min(times, kMaxSecondStage) * count);
-    return second * m_options.gatherRays < kMinRays ? 0 : second;
-}
-
 /// Samples the tile whose upper left pixel is (x, y), in both stages.
 GatherTile FinalGather::tileOf(std::uint32_t x, std::uint32_t y) const {
     GatherTile tile{.x = x,
                     .y = y,
                     .width = std::min(kGatherTile, m_options.width - x),
                     .height = std::min(kGatherTile, m_options.height - y)};
-    const std::uint32_t count = m_options.samplesPerPixel;
-    std::array<std::vector<RayLight>, 2> learned; // each by every other pixel
-    const auto forEachPixel = [&](const auto& body) {
-        for (std::uint32_t j = 0; j < tile.height; ++j)
-            for (std::uint32_t i = 0; i < tile.width; ++i)
-                body(i, j, j * kGatherTile + i);
-    };
-    forEachPixel([&](std::uint32_t i, std::uint32_t j, std::uint32_t p) {
-        tile.firstStage[p] = take({x + i, y + j}, 0, count, nullptr, &learned[(i + j) % 2]);
-    });
-    tile.guide = learnGuide(learned[0], learned[1]);
-    forEachPixel([&](std::uint32_t i, std::uint32_t j, std::uint32_t p) {
-        const double variance = varianceAround(tile, i, j);
-        tile.secondStage[p] =
-            take({x + i, y + j}, count, secondStageCount(variance), &tile.guide, nullptr);
-    });
-    weighStages(tile);
+    const GatherStages stages{m_options.samplesPerPixel, m_options.gatherRays, m_meanLight};
+    takeStages(tile, stages,
+               [&](std::uint32_t i, std::uint32_t j, std::uint32_t begin, std::uint32_t count,
+                   const LightGuide* guide, std::vector<RayLight>* learned) {
+                   return take({x + i, y + j}, begin, count, guide, learned);
+               });
     return tile;
 }
 

@@ -2,17 +2,13 @@
 #pragma once
 
 #include "engine/core/progress.h"
-#include "engine/field/sample_field.h"
-#include "engine/picture/emitted_light.h"
-#include "engine/picture/field_lobe.h"
 #include "engine/picture/field_render.h"
-#include "engine/picture/gather_tile.h"
+#include "engine/picture/gather_point.h"
 #include "engine/picture/gathered_light.h"
-#include "engine/picture/light_sink.h"
 #include "engine/picture/pixel_sample.h"
 
-#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace limn {
@@ -26,11 +22,10 @@ namespace limn {
 /// not where it is seen. A ray that is shorter than some of these texels' widths is continued by a
 /// path. So light that comes from near surfaces needs no rays of its own (near_light.h).
 ///
-/// Samples are taken in two stages. In the first, pixels have as many samples as the picture. In
-/// the second, they have samples in proportion to the standard deviation of the first ones, which
-/// reduces variance most for a given number (Neyman. On the Two Different Aspects of the
-/// Representative Method. 1934). A guide samples directions of the second stage in proportion to
-/// the light that the pixels of the same tile have found there.
+/// Samples are taken in two stages (gather_stages.h). In the first, pixels have as many samples as
+/// the picture. In the second, they have samples in proportion to the standard deviation of the
+/// first ones. A guide samples directions of the second stage in proportion to the light that the
+/// pixels of the same tile have found there.
 ///
 /// Where the field is about right, the difference is noise alone. So each pixel shows its
 /// difference, and the mean of those around it, times shrinkage factors (shrinkDifference()).
@@ -62,20 +57,11 @@ public:
     void walk(std::uint32_t x, std::uint32_t y, Sink& sink) const;
 
 private:
-    /// Weights of the parts of a sample's light.
-    using PartWeights = std::array<glm::vec3, kGatherParts>;
-    struct PartSink;
-
-    const IndirectField& emittedField() const { return *m_options.emitted; }
-    FieldPoint pointOf(const IndirectField& field, const Hit& hit, const SurfacePoint& p) const {
-        return fieldPoint(field, m_layout, m_trace.scene(), hit, p);
-    }
     glm::vec3 weightOf(const SurfacePoint& p) const;
     double meanLight() const;
     GatherTile tileOf(std::uint32_t x, std::uint32_t y) const;
     GatherSamples take(glm::uvec2 pixel, std::uint32_t begin, std::uint32_t count,
                        const LightGuide* guide, std::vector<RayLight>* learned) const;
-    std::uint32_t secondStageCount(double variance) const;
     /// Walks sample s of a pixel, and returns its weightOf(). `guide` samples directions of the
     /// second stage; it is null in the first one.
     template <GatherSink Sink>
@@ -85,17 +71,12 @@ private:
     template <GatherSink Sink>
     void walkPixel(const GatherTile& tile, glm::uvec2 pixel, const PartWeights& partWeights,
                    Sink& sink) const;
-    template <GatherSink Sink>
-    void walkBounced(EmittedLightSample met, const Sampler& sampler, glm::vec3 weight,
-                     Sink& sink) const;
-
     const TraceScene& m_trace;
     const IndirectField& m_field;
     const LightmapLayout& m_layout;
     const FieldRenderOptions& m_options;
-    EmittedLightSources m_sources;
+    std::optional<GatherScene> m_gather; ///< absent where the options ask for no gathering
     bool m_any;
-    std::vector<float> m_widths; ///< twice the nearReaches() [m]
     PixelRays m_rays;
     double m_meanLight = 0; ///< mean of the field's light in the picture
 };

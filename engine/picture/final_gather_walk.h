@@ -3,45 +3,9 @@
 
 #include "engine/picture/final_gather.h"
 
-#include <algorithm>
 #include <optional>
 
 namespace limn {
-
-/// Minimum distance of a surface at which the field is read, in widths of its texels. Where a ray
-/// meets a nearer one, a path continues it, because light from so near varies too much for texels.
-inline constexpr float kMinTexels = 4;
-
-/// Limits of such a path, as in a gap between surfaces: the field is read all the same where the
-/// product of the albedos after the first hit's is below kMinReflected, and at the last of
-/// kMaxGatherBounces.
-inline constexpr float kMinReflected = 0.03f;
-inline constexpr std::uint32_t kMaxGatherBounces = 64;
-
-template <GatherSink Sink>
-void FinalGather::walkBounced(EmittedLightSample met, const Sampler& sampler, glm::vec3 weight,
-                              Sink& sink) const {
-    const std::uint32_t via = met.hit.instance;
-    float reflected = 1;
-    for (std::uint32_t bounce = 1; met.point && sink.reflects(met.hit.instance); ++bounce) {
-        const glm::vec3 albedo = met.point->albedo;
-        weight *= albedo / glm::pi<float>();
-        reflected *= bounce > 1 ? std::max({albedo.x, albedo.y, albedo.z}) : 1;
-        const Sampler light{mixBits(sampler.seed, kOnLightDimension + bounce), sampler.index};
-        sink.gatheredDirectLight(*met.point, {light.pair(0).x, light.pair(1)}, weight, via);
-        if (reflected < kMinReflected || bounce == kMaxGatherBounces ||
-            !(met.hit.t < kMinTexels * m_widths[met.hit.instance])) {
-            sink.fieldIrradiance(pointOf(m_field, met.hit, *met.point), weight, Bounced);
-            return;
-        }
-        met = sampleEmittedLight(m_trace, m_sources, *met.point,
-                                 {mixBits(sampler.seed, bounce), sampler.index});
-        for (const IncidentLightSample& f : met.samples)
-            if (f.irradiance != glm::vec3(0))
-                sink.gatheredEmission(f, weight * f.irradiance, Bounced, via);
-        weight *= met.weight;
-    }
-}
 
 template <GatherSink Sink>
 glm::vec3 FinalGather::walkSample(glm::uvec2 pixel, std::uint32_t s, const LightGuide* guide,
@@ -55,30 +19,7 @@ glm::vec3 FinalGather::walkSample(glm::uvec2 pixel, std::uint32_t s, const Light
     PartWeights weights;
     for (std::uint32_t part = 0; part < kGatherParts; ++part)
         weights[part] = partWeights[part] * weight;
-    const FieldPoint here = pointOf(m_field, hit, *p),
-                     emittedHere = pointOf(emittedField(), hit, *p);
-    if (partWeights[Shown] != glm::vec3(0)) // of the pixel itself alone
-        sink.fieldIrradiance(here, weights[Shown], Shown);
-    sink.fieldIrradiance(emittedHere, -weights[Emitted], Emitted);
-    sink.fieldIrradiance(emittedHere, weights[Bounced], Bounced);
-    sink.fieldIrradiance(here, -weights[Bounced], Bounced);
-    const std::uint32_t rays = m_options.gatherRays;
-    for (std::uint32_t k = 0; k < rays; ++k) {
-        const Sampler sampler{sample.gather.seed, s * rays + k};
-        const EmittedLightSample light = sampleEmittedLight(m_trace, m_sources, *p, sampler, guide);
-        const auto arrives = [&](const IncidentLightSample& f) {
-            if (f.irradiance != glm::vec3(0))
-                sink.gatheredEmission(f, weights[Emitted] / float(rays) * f.irradiance, Emitted,
-                                      f.instance);
-        };
-        arrives(light.samples[0]);
-        arrives(light.samples[1]);
-        sink.rayBegins(light);
-        arrives(light.samples[2]);
-        if (light.weight > 0 && light.hit)
-            walkBounced(light, sampler, light.weight / float(rays) * weights[Bounced], sink);
-        sink.rayEnds();
-    }
+    walkGatheredPoint(*m_gather, hit, *p, sample.gather.seed, s, guide, weights, sink);
     return weight;
 }
 

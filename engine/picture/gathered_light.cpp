@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 
+#include <algorithm>
 #include <array>
 
 #include <glm/common.hpp>
@@ -68,24 +69,55 @@ struct Deviations {
 
 } // namespace
 
+SharingWindow sharingWindow(const GatheredLight& light, glm::uvec2 pixel) {
+    SharingWindow window{windowAround(pixel, kGatherRadius, light.rect)};
+    const PixelRect& rect = window.rect;
+    if (light.shares.empty()) {
+        std::fill_n(window.shares.begin(), rect.size(), true);
+        return window;
+    }
+    std::array<glm::uvec2, kMaxWindowPixels> reached;
+    std::size_t count = 0;
+    const auto reach = [&](glm::uvec2 q) {
+        bool& shares = window.shares[rect.numberOf(q)];
+        if (!shares)
+            reached[count++] = q;
+        shares = true;
+    };
+    const auto sharesWith = [&](glm::uvec2 q, SharesNoise next) {
+        return (light.shares[light.rect.numberOf(q)] & next) != 0;
+    };
+    reach(pixel);
+    for (std::size_t k = 0; k < count; ++k) {
+        const glm::uvec2 q = reached[k];
+        const glm::uvec2 right(1, 0), below(0, 1);
+        if (q.x + 1 < rect.end.x && sharesWith(q, WithRight))
+            reach(q + right);
+        if (q.y + 1 < rect.end.y && sharesWith(q, WithBelow))
+            reach(q + below);
+        if (q.x > rect.begin.x && sharesWith(q - right, WithRight))
+            reach(q - right);
+        if (q.y > rect.begin.y && sharesWith(q - below, WithBelow))
+            reach(q - below);
+    }
+    return window;
+}
+
 ShrunkDifference shrinkDifference(const GatheredLight& light, GatherPart part, glm::uvec2 pixel) {
-    const PixelRect window = windowAround(pixel, kGatherRadius, light.rect);
-    constexpr std::size_t kMaxPixels = (2 * kGatherRadius + 1) * (2 * kGatherRadius + 1);
-    std::array<GatheredMean, kMaxPixels> near;
+    const SharingWindow window = sharingWindow(light, pixel);
+    std::array<GatheredMean, kMaxWindowPixels> near;
     ShrunkDifference shrunk;
-    window.forEach([&](glm::uvec2 q) {
+    window.forEach(pixel, kGatherRadius, [&](glm::uvec2 q) {
         shrunk.window.add(light.at(q), part);
-        GatheredMean& mean = near[window.numberOf(q)];
-        windowAround(q, kNearRadius, window).forEach([&](glm::uvec2 r) {
-            mean.add(light.at(r), part);
-        });
+        GatheredMean& mean = near[window.rect.numberOf(q)];
+        window.forEach(q, kNearRadius, [&](glm::uvec2 r) { mean.add(light.at(r), part); });
     });
-    shrunk.near = near[window.numberOf(pixel)];
+    shrunk.near = near[window.rect.numberOf(pixel)];
     Deviations nearDeviations;  // of neighbourhoods' means from the window's mean
     Deviations pixelDeviations; // of pixels from their neighbourhoods' means
-    window.forEach([&](glm::uvec2 q) {
+    window.forEach(pixel, kGatherRadius, [&](glm::uvec2 q) {
         const GatheredPixel& p = light.at(q);
-        const GatheredMean& mean = near[window.numberOf(q)];
+        const GatheredMean& mean = near[window.rect.numberOf(q)];
         const double a = greyOf(mean.factorFor(p.weight)),
                      b = greyOf(shrunk.window.factorFor(p.weight));
         nearDeviations.add(mean.in(p.weight) - shrunk.window.in(p.weight),

@@ -51,16 +51,40 @@ inline constexpr std::uint32_t kGatherRadius = 3, kNearRadius = 1;
 /// The square of pixels up to `radius` away from a pixel of `rect`, clipped to `rect`.
 PixelRect windowAround(glm::uvec2 pixel, std::uint32_t radius, const PixelRect& rect);
 
-/// Gathered light of a part of a picture.
+/// Whether a pixel shares noise with the next one to its right and with that below it.
+enum SharesNoise : std::uint8_t { WithRight = 1, WithBelow = 2 };
+
+/// Gathered light of a part of a picture, or of texels that are laid out like one.
 struct GatheredLight {
     PixelRect rect;
     std::vector<GatheredPixel> pixels; ///< one for each of rect
+    /// Sets of SharesNoise, one for each pixel; empty: all pixels of a window share their noise.
+    std::vector<std::uint8_t> shares;
 
     explicit GatheredLight(const PixelRect& area) : rect(area), pixels(area.size()) {}
     const GatheredPixel& at(glm::uvec2 pixel) const { return pixels[rect.numberOf(pixel)]; }
     /// Takes the means of a tile, all of which is in rect.
     void set(const GatherTile& tile);
 };
+
+inline constexpr std::size_t kMaxWindowPixels = (2 * kGatherRadius + 1) * (2 * kGatherRadius + 1);
+
+/// The pixels that share noise with one: those of the window around it that steps between pixels
+/// which share noise lead to within the window.
+struct SharingWindow {
+    PixelRect rect;
+    std::array<bool, kMaxWindowPixels> shares{}; ///< by rect.numberOf()
+
+    /// Calls body(pixel) for each of them within a radius around a pixel of the window.
+    template <class Body>
+    void forEach(glm::uvec2 pixel, std::uint32_t radius, const Body& body) const {
+        windowAround(pixel, radius, rect).forEach([&](glm::uvec2 q) {
+            if (shares[rect.numberOf(q)])
+                body(q);
+        });
+    }
+};
+SharingWindow sharingWindow(const GatheredLight& light, glm::uvec2 pixel);
 
 /// Sums over some pixels. With these it predicts the light of a pixel of the same mean irradiance.
 struct GatheredMean {
@@ -77,7 +101,7 @@ struct GatheredMean {
 /// The difference between gathered light and the field's that a pixel shows: a sum of three terms,
 /// each times a shrinkage factor in [0, 1]. They are the mean over the pixel's window, what the
 /// mean over its neighbourhood differs from that by, and what the pixel differs from its
-/// neighbourhood by.
+/// neighbourhood by. Both consist of the pixels of its SharingWindow.
 struct ShrunkDifference {
     GatheredMean window, near;
     float windowFactor = 0, nearFactor = 0, pixelFactor = 0;
