@@ -34,6 +34,7 @@ namespace {
 struct ExportCommand {
     SceneOptions scene;
     BakeOptions bake;
+    CameraOptions camera;
     GivenSettings relight, given; ///< replace the document's; `given` are those of the export
     std::string format, bakeFile, output;
     ExportFolders folders = exportFolders();
@@ -130,6 +131,12 @@ std::string lightmapText(const ExportForecast& f) {
     return fmt::format(", lightmap of {}{} x {} texels", pages, f.width, f.height);
 }
 
+/// ", nRMSE .031, bias +0.2 %"; empty without an error.
+std::string errorText(const std::optional<Comparison>& error) {
+    return error ? fmt::format(", nRMSE {:.3f}, bias {:+.1f} %", error->nrmse, 100 * error->bias)
+                 : std::string();
+}
+
 Json forecastJson(const ExportForecast& forecast) {
     return {{"bytes", forecast.bytes},
             {"pages", forecast.pages},
@@ -145,7 +152,10 @@ Json reportJson(const ExportFormat& format, const ExportForecast& forecast,
     auto list = Json::array();
     for (const ExportedFile& file : files) {
         bytes += file.bytes;
-        list.push_back({{"name", file.name}, {"bytes", file.bytes}});
+        Json entry = {{"name", file.name}, {"bytes", file.bytes}};
+        if (file.error)
+            entry["error"] = errorJson(*file.error);
+        list.push_back(std::move(entry));
     }
     return {{"format", format.name},
             {"seconds", seconds},
@@ -182,9 +192,13 @@ Exit runExport(const ExportCommand& options) {
     if (const std::string useless = uselessSetting(options, settings, !lit->field().grid.empty());
         !useless.empty())
         return failed(useless);
-    const ExportScene in{imported->document, *lit->scene,  *lit->trace,
-                         *lit->layout,       lit->field(), lit->prepared.data.get(),
-                         options.folders};
+    const Result<Camera> camera = chooseCamera(*lit->scene, options.camera);
+    if (!camera)
+        return failed(camera.error().message);
+    const std::shared_ptr<const IndirectField> emitted = lit->lighting->emittedField(*lit->scene);
+    const ExportScene in{imported->document, *lit->scene,   *lit->trace,
+                         *lit->layout,       lit->field(),  lit->prepared.data.get(),
+                         options.folders,    emitted.get(), &*camera};
     const ExportForecast forecast = (*format)->forecast(in, settings);
     if (forecast.detail > 0 && forecast.detail < settings.detail)
         logWarning(
@@ -203,7 +217,7 @@ Exit runExport(const ExportCommand& options) {
         fmt::print("{}\n", reportJson(**format, forecast, *files, seconds).dump());
     else
         for (const ExportedFile& file : *files)
-            fmt::print("{:<40} {}\n", file.name, bytesText(file.bytes));
+            fmt::print("{:<40} {}{}\n", file.name, bytesText(file.bytes), errorText(file.error));
     return Exit::Done;
 }
 
@@ -235,6 +249,7 @@ void addExportCommand(Command& app) {
     Command command = app.addCommand("export", "Write a scene's light for other programs");
     addSceneOptions(command, o->scene);
     addBakeOptions(command, o->bake);
+    addViewOptions(command, o->camera);
     addRelightOptions(command, o->relight);
     Option list = command.flag("--list", o->list, "List the formats");
     command.get("scene").required(false);

@@ -11,6 +11,7 @@
 #include "app/commands/tone_options.h"
 
 #include "engine/core/log.h"
+#include "engine/export/baked_light.h"
 #include "engine/files/image_file.h"
 #include "engine/json/json.h"
 #include "engine/lightmap/atlas.h"
@@ -42,7 +43,7 @@ struct RenderCommand {
     std::uint32_t frames = 1;
     double framesPerSecond = 24;
     GivenSettings relighting; ///< instead of the document's
-    bool allCaches = false, json = false;
+    bool allCaches = false, bakedLight = false, json = false;
 };
 
 /// What a picture needs besides the scene: indirect light and an overlay. Empty if it needs
@@ -56,6 +57,8 @@ struct Baked {
     Viewpoint view;                     ///< of the picture
     bool lightAll = true;               ///< light must be up to date out of view, too
     std::unique_ptr<Lighting> lighting; ///< made when the CPU has to light
+    /// The light of an exported lightmap, which takes the place of all that.
+    std::shared_ptr<const BakedLight> exported;
     std::shared_ptr<const OverlayData> overlay;
 };
 
@@ -115,7 +118,24 @@ Result<void> addOverlay(const RenderCommand& options, const Scene& scene, const 
     return {};
 }
 
+/// Reads the light of an exported scene. Lamps whose direct light it has are put out.
+Result<Baked> readExported(const RenderCommand& options, Scene& scene) {
+    Result<BakedLight> light =
+        readBakedLight(options.scene.scene, scene, options.scene.import.memory);
+    if (!light)
+        return tl::make_unexpected(light.error());
+    if (light->hasDirectLight)
+        scene.lights.clear();
+    Baked baked;
+    baked.exported = std::make_shared<const BakedLight>(std::move(*light));
+    baked.layout = {baked.exported, &baked.exported->layout};
+    baked.light = showsBouncedLight(View(indexOf(kViewNames, options.view)));
+    return baked;
+}
+
 Result<Baked> prepareBake(const RenderCommand& options, Scene& scene, const Camera& camera) {
+    if (options.bakedLight)
+        return readExported(options, scene);
     const bool light = showsBouncedLight(View(indexOf(kViewNames, options.view)));
     if (scene.instances.empty() || !(light || options.overlay.wanted()))
         return Baked{}; // nothing receives light, or nobody asks
@@ -179,6 +199,17 @@ Result<void> checkInspection(const RenderCommand& options) {
     return {};
 }
 
+/// Baked light is drawn on the CPU, and nothing else lights the scene.
+Result<void> checkBakedLight(const RenderCommand& options) {
+    if (!options.bakedLight)
+        return {};
+    if (!options.bake.empty() || options.overlay.wanted() || inspects(options))
+        return fail("--baked-light: goes with no --bake, --overlay or --inspect");
+    if (options.device != "auto" && options.device != "cpu")
+        return fail("--baked-light: is drawn on the CPU; not with another --device");
+    return {};
+}
+
 Result<void> checkRelight(const RenderCommand& options) {
     if (options.relight == "gpu" && options.device == "cpu")
         return fail("--relight gpu: needs a Vulkan device that draws; not --device cpu");
@@ -189,7 +220,7 @@ Result<void> checkRelight(const RenderCommand& options) {
 Result<DrawPicture> chooseDrawing(const RenderCommand& options) {
     const bool cpuWillDo = options.device == "auto" && !options.overlay.wanted() &&
                            !inspects(options) && options.relight != "gpu";
-    if (options.device == "cpu")
+    if (options.device == "cpu" || options.bakedLight)
         return renderOnCpu;
     Result<DrawPicture> onGpu = drawingOnGpu(options.device == "auto" ? "" : options.device);
     if (!cpuWillDo)
@@ -222,6 +253,13 @@ RenderRequest requestOf(const RenderCommand& options, const Scene& scene, const 
     request.nearRays = options.nearRays;
     request.gatherRays = options.gatherRays;
     request.tonemapped = std::filesystem::path(options.output).extension() == ".png";
+    if (baked.exported) {
+        request.nearRays = request.gatherRays = 0;
+        if (baked.light)
+            request.relight = [&](bool) { return CpuLight{baked.exported->field, {}}; };
+        request.layout = baked.layout;
+        return request;
+    }
     if (baked.light)
         request.relight = [&](bool reflections) { return relight(scene, baked, reflections); };
     request.emitted = [&] { return baked.lighting->emittedField(scene); };
@@ -351,7 +389,8 @@ Exit runRender(const RenderCommand& options) {
     for (const Result<void>& possible :
          {checkOutputFile(options.output, {".exr", ".png"},
                           {options.scene.scene, options.scene.sky, options.bake}),
-          checkOverlay(options), checkInspection(options), checkRelight(options)})
+          checkOverlay(options), checkInspection(options), checkRelight(options),
+          checkBakedLight(options)})
         if (!possible)
             return failed(possible.error().message);
     const Result<ImportedScene> imported = openScene(options.scene);
@@ -399,6 +438,8 @@ void addRenderCommand(Command& app) {
     addOverlayFlags(command, options->overlay);
     command.option("--bake", options->bake,
                    "Bake of this scene, .limnbake; default: a bake is made in memory where needed");
+    command.flag("--baked-light", options->bakedLight,
+                 "Draw an export of Limn's in the light of its lightmap, looked up as engines do");
     command
         .option("-o,--output", options->output,
                 "Picture to write, .exr (linear) or .png (tone-mapped)")

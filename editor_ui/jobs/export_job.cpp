@@ -47,9 +47,11 @@ static Result<std::vector<ExportedFile>> exportedFiles(const ExportOrder& order,
                       order.prepared, LitFor::Export, progress);
     if (!lit)
         return tl::make_unexpected(lit.error());
-    const ExportScene in{order.document, *lit->scene,  *lit->trace,
-                         *lit->layout,   lit->field(), lit->prepared.data.get(),
-                         order.folders};
+    const Camera* camera = lit->scene->cameras.empty() ? nullptr : &lit->scene->cameras.front();
+    const std::shared_ptr<const IndirectField> emitted = lit->lighting->emittedField(*lit->scene);
+    const ExportScene in{order.document, *lit->scene,   *lit->trace,
+                         *lit->layout,   lit->field(),  lit->prepared.data.get(),
+                         order.folders,  emitted.get(), camera};
     return exportLight(order.path, *format, in, order.settings, progress);
 }
 

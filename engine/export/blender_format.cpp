@@ -9,7 +9,8 @@ namespace limn {
 namespace blender_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
-static constexpr std::array<std::string_view, 3> kSettings = {"direct", "detail", "maxSize"};
+static constexpr std::array<std::string_view, 7> kSettings = {
+    "quality", "texels", "error", "paths", "direct", "detail", "maxSize"};
 
 static ExportSettings ownSettings(ExportSettings settings) {
     settings.encoding = TextureEncoding::Exr;

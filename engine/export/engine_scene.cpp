@@ -2,6 +2,7 @@
 #include "engine/export/engine_scene.h"
 
 #include "engine/export/export_resource.h"
+#include "engine/export/exported_lightmap.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/lightmap_file.h"
 
@@ -20,24 +21,19 @@ static void replaceAll(std::string& text, std::string_view what, std::string_vie
 Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
                                          Json extras, const std::string& name,
                                          const Progress& progress) {
-    const Result<LightmapPages> pages = exportPages(scene, settings);
-    if (!pages)
-        return tl::make_unexpected(pages.error());
-    const Result<std::vector<LightmapImage>> images =
-        lightmapImages(scene, settings, *pages, progress);
-    if (!images)
-        return tl::make_unexpected(images.error());
-    Result<std::vector<ExportFile>> lightmap =
-        lightmapFiles(*images, settings, stemOf(name) + "-lightmap");
-    if (!lightmap)
-        return tl::make_unexpected(lightmap.error());
-    GltfOptions options{.pages = &*pages, .extras = {}};
-    options.extras["lightmap"] = lightmapJson(images->front(), settings, *lightmap);
+    Result<WrittenLightmap> map =
+        writtenLightmap(scene, settings, stemOf(name) + "-lightmap", progress);
+    if (!map)
+        return tl::make_unexpected(map.error());
+    GltfOptions options{.pages = &map->pages, .extras = {}};
+    options.extras["lightmap"] = lightmapJson(map->first, settings, map->files);
+    if (map->error)
+        options.extras["lightmap"]["error"] = errorJson(*map->error);
     if (!extras.isNull())
         options.extras.update(extras);
     Result<std::vector<ExportFile>> files = gltfFiles(scene, options, name, progress);
     if (files)
-        std::ranges::move(*lightmap, std::back_inserter(*files));
+        std::ranges::move(map->files, std::back_inserter(*files));
     return files;
 }
 
@@ -52,7 +48,7 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
 }
 
 ExportForecast litSceneForecast(const ExportScene& scene, const ExportSettings& settings) {
-    ExportForecast f = forecastPages(scene, settings);
+    ExportForecast f = forecastLightmapOf(scene, settings, PageCount::Any);
     f.bytes += gltfBytes(scene);
     return f;
 }

@@ -5,12 +5,14 @@
 #include "engine/core/result.h"
 #include "engine/field/indirect_field.h"
 #include "engine/lightmap/layout/lightmap_layout.h"
+#include "engine/measure/compare.h"
 #include "engine/scene/document.h"
 #include "engine/scene/export_settings.h"
 #include "engine/scene/scene.h"
 #include "engine/trace/trace_scene.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -35,12 +37,17 @@ struct ExportScene {
     const IndirectField& field;
     const Precomputed* precomputed = nullptr; ///< null if the technique needs nothing of the kind
     ExportFolders folders = {};
+    /// Lighting::emittedField(); null: the technique does not tell it apart.
+    const IndirectField* emitted = nullptr;
+    /// What the error of a lightmap is measured in front of; null: it is not measured.
+    const Camera* camera = nullptr;
 };
 
 /// A file of an export, relative to the folder that is written to.
 struct ExportFile {
-    std::string name;  ///< may contain folders, separated by '/'
-    std::string bytes; ///< the whole content
+    std::string name;                               ///< may contain folders, separated by '/'
+    std::string bytes;                              ///< the whole content
+    std::optional<Comparison> error = std::nullopt; ///< of the lightmap in it, where it is measured
 };
 
 /// An exported size before anything is computed.

@@ -100,7 +100,7 @@ Result<std::vector<ExportedFile>> exportLight(const std::string& path, const Exp
         return tl::make_unexpected(written.error());
     std::vector<ExportedFile> written;
     for (const ExportFile& file : *files)
-        written.push_back({file.name, file.bytes.size()});
+        written.push_back({file.name, file.bytes.size(), file.error});
     return written;
 }
 

@@ -30,6 +30,7 @@ Result<void> checkExportPath(const std::string& path, const ExportFormat& format
 struct ExportedFile {
     std::string name; ///< relative to the folder of the export
     std::uint64_t bytes = 0;
+    std::optional<Comparison> error = std::nullopt; ///< of the lightmap in it, where it is measured
 };
 
 /// Exports to `path` and returns the files written, the main file first. Formats hold a lightmap

@@ -3,6 +3,7 @@
 
 #include "engine/core/base64.h"
 #include "engine/export/engine_scene.h"
+#include "engine/export/exported_lightmap.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/godot_probes.h"
 #include "engine/export/lightmap_image.h"
@@ -23,7 +24,8 @@ namespace godot_format {
 namespace {
 
 constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
-constexpr std::array<std::string_view, 4> kSettings = {"bands", "direct", "detail", "maxSize"};
+constexpr std::array<std::string_view, 6> kSettings = {"quality", "texels", "bands",
+                                                       "direct",  "detail", "maxSize"};
 
 ExportSettings ownSettings(ExportSettings settings) {
     settings.bands = std::min(settings.bands, 2U); // its directional lightmaps have two
@@ -131,23 +133,23 @@ std::string lightmapData(const ExportScene& scene, const LightmapImage& image) {
 
 Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSettings& settings,
                                       const std::string& name, const Progress& progress) {
-    const Result<LightmapImage> image = lightmapImage(scene, ownSettings(settings), progress);
-    if (!image)
-        return tl::make_unexpected(image.error());
-    const LightmapPages page = onePage(scene.scene, scene.layout, 1);
+    const Result<ExportedLightmap> map =
+        exportedLightmap(scene, ownSettings(settings), PageCount::One, progress);
+    if (!map)
+        return tl::make_unexpected(map.error());
     Result<std::vector<ExportFile>> files =
-        gltfFiles(scene, {.pages = &page, .extras = {}}, name, progress);
+        gltfFiles(scene, {.pages = &map->pages, .extras = {}}, name, progress);
     if (!files)
         return files;
     const std::string stem = stemOf(name);
-    files->push_back({stem + ".tres", lightmapData(scene, *image)});
+    files->push_back({stem + ".tres", lightmapData(scene, map->images.front())});
     files->push_back(loaderFile(stem + "-godot.gd", stem, {"godot.gd"}));
     return files;
 }
 
 ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
     const ExportSettings godotSettings = ownSettings(settings);
-    ExportForecast f = forecastLightmap(scene.layout, godotSettings);
+    ExportForecast f = forecastLightmapOf(scene, godotSettings, PageCount::One);
     const std::uint64_t layers = godotSettings.bands > 1 ? 4 : 1;
     f.bytes = gltfBytes(scene) + layers * f.width * f.height * 11; // 8 bytes in base64
     f.bytes += std::min<std::uint64_t>(scene.field.cells(), kMaxGodotProbes) *

@@ -131,4 +131,11 @@ Json lightmapJson(const LightmapImage& image, const ExportSettings& settings,
     return json;
 }
 
+Json errorJson(const Comparison& error) {
+    return {{"nrmse", error.nrmse},
+            {"nrmseNoise", error.nrmseNoise},
+            {"bias", error.bias},
+            {"biasNoise", error.biasNoise}};
+}
+
 } // namespace limn

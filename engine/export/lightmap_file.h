@@ -36,4 +36,7 @@ TextureEncoding encodingFor(const ExportSettings& settings, std::string_view nam
 Json lightmapJson(const LightmapImage& image, const ExportSettings& settings,
                   const std::vector<ExportFile>& files);
 
+/// The error of a lightmap, for the same place: nRMSE and bias, each with its standard error.
+Json errorJson(const Comparison& error);
+
 } // namespace limn

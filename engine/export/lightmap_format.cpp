@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/lightmap_format.h"
 
+#include "engine/export/exported_lightmap.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/lightmap_file.h"
 #include "engine/scene/export_settings_fields.h"
@@ -13,8 +14,9 @@ namespace limn {
 namespace lightmap_format {
 
 static constexpr std::array<std::string_view, 2> kExtensions = {".exr", ".ktx2"};
-static constexpr std::array<std::string_view, 8> kSettings = {
-    "encoding", "compress", "quantity", "direct", "bands", "layers", "detail", "maxSize"};
+static constexpr std::array<std::string_view, 12> kSettings = {
+    "quality",  "texels", "error", "paths",  "encoding", "compress",
+    "quantity", "direct", "bands", "layers", "detail",   "maxSize"};
 
 /// The settings with the encoding that the file's extension asks for.
 static Result<ExportSettings> settingsFor(ExportSettings settings, const std::string& name) {
@@ -31,18 +33,14 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene, const Exp
     const Result<ExportSettings> settings = settingsFor(wanted, name);
     if (!settings)
         return tl::make_unexpected(settings.error());
-    const Result<LightmapPages> pages = exportPages(scene, *settings);
-    if (!pages)
-        return tl::make_unexpected(pages.error());
-    const Result<std::vector<LightmapImage>> images =
-        lightmapImages(scene, *settings, *pages, progress);
-    if (!images)
-        return tl::make_unexpected(images.error());
-    return lightmapFiles(*images, *settings, stemOf(name));
+    Result<WrittenLightmap> map = writtenLightmap(scene, *settings, stemOf(name), progress);
+    if (!map)
+        return tl::make_unexpected(map.error());
+    return std::move(map->files);
 }
 
 static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
-    return forecastPages(scene, settings);
+    return forecastLightmapOf(scene, settings, PageCount::Any);
 }
 
 } // namespace lightmap_format

@@ -154,17 +154,6 @@ struct Evaluation {
     }
 };
 
-Result<void> checkSettings(const ExportScene& scene, const ExportSettings& settings) {
-    if (scene.field.lightmapWidth == 0)
-        return fail("no object of the scene has a lightmap");
-    if (settings.bands > scene.field.bands)
-        return fail(fmt::format("lightmap bands: the light has {}, not {}", scene.field.bands,
-                                settings.bands));
-    if (settings.bands > 1 && settings.quantity != LightmapQuantity::Irradiance)
-        return fail("quantity: harmonics hold incident radiance; leave it at irradiance");
-    return {};
-}
-
 /// The colours of the plain lightmap's texels: values[layer * texels + texel]. Incomplete when
 /// cancelled.
 std::vector<glm::vec3> evaluate(const ExportScene& scene, const ExportSettings& settings,
@@ -230,6 +219,19 @@ Result<std::uint32_t> pagedDetail(const ExportScene& scene, const ExportSettings
 
 } // namespace
 
+Result<void> checkLightmap(const ExportScene& scene, const ExportSettings& settings) {
+    if (const std::string defect = settingsDefect(settings); !defect.empty())
+        return fail(defect);
+    if (scene.field.lightmapWidth == 0)
+        return fail("no object of the scene has a lightmap");
+    if (settings.bands > scene.field.bands)
+        return fail(fmt::format("lightmap bands: the light has {}, not {}", scene.field.bands,
+                                settings.bands));
+    if (settings.bands > 1 && settings.quantity != LightmapQuantity::Irradiance)
+        return fail("quantity: harmonics hold incident radiance; leave it at irradiance");
+    return {};
+}
+
 Result<std::uint32_t> lightmapDetail(const LightmapLayout& layout, const ExportSettings& settings) {
     if (const std::string defect = settingsDefect(settings); !defect.empty())
         return fail(defect);
@@ -255,7 +257,7 @@ Result<std::vector<LightmapImage>> lightmapImages(const ExportScene& scene,
                                                   const ExportSettings& settings,
                                                   const LightmapPages& pages,
                                                   const Progress& progress) {
-    if (const Result<void> ok = checkSettings(scene, settings); !ok)
+    if (const Result<void> ok = checkLightmap(scene, settings); !ok)
         return tl::make_unexpected(ok.error());
     progress.at("lightmap", 0);
     const PlainLightmap plain = plainLightmap(scene.scene, scene.layout, pages.factor);
@@ -281,8 +283,7 @@ Result<LightmapImage> lightmapImage(const ExportScene& scene, const ExportSettin
     return std::move(images->front());
 }
 
-/// Bytes of that many texels.
-static std::uint64_t encodedBytes(std::uint64_t texels, const ExportSettings& settings) {
+std::uint64_t lightmapBytes(std::uint64_t texels, const ExportSettings& settings) {
     constexpr std::array<std::uint64_t, 4> kBytes = {12, 8, 4, 1}; // a texel, by TextureEncoding
     const std::uint64_t layers = settings.bands > 1 ? settings.bands * settings.bands : 1;
     return kBytes[std::size_t(settings.encoding)] * layers * texels;
@@ -294,7 +295,7 @@ ExportForecast forecastLightmap(const LightmapLayout& layout, const ExportSettin
         return {};
     ExportForecast f{
         .width = layout.width * *detail, .height = layout.height * *detail, .detail = *detail};
-    f.bytes = encodedBytes(std::uint64_t(f.width) * f.height, settings);
+    f.bytes = lightmapBytes(std::uint64_t(f.width) * f.height, settings);
     return f;
 }
 
@@ -308,7 +309,7 @@ ExportForecast forecastPages(const ExportScene& scene, const ExportSettings& set
                      .height = pages > 1 ? side : scene.layout.height * *detail,
                      .pages = pages,
                      .detail = *detail};
-    f.bytes = encodedBytes(std::uint64_t(f.width) * f.height * pages, settings);
+    f.bytes = lightmapBytes(std::uint64_t(f.width) * f.height * pages, settings);
     return f;
 }
 

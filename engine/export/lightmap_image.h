@@ -24,6 +24,13 @@ struct LightmapImage {
     std::vector<glm::vec3> rgb;
 };
 
+/// Fails for settings with a settingsDefect(), if no instance has a lightmap, and where more bands
+/// are asked for than the light has.
+Result<void> checkLightmap(const ExportScene& scene, const ExportSettings& settings);
+
+/// Bytes of that many texels, encoded as `settings` ask.
+std::uint64_t lightmapBytes(std::uint64_t texels, const ExportSettings& settings);
+
 /// Number of texels per cache along each side of a lightmap that has to be a single texture:
 /// settings.detail, or the largest odd number below it with which the lightmap stays within
 /// settings.maxSize. Fails where no number does, and for settings with a settingsDefect().

@@ -11,8 +11,9 @@ namespace limn {
 namespace three_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
-static constexpr std::array<std::string_view, 6> kSettings = {"encoding", "compress", "direct",
-                                                              "bands",    "detail",   "maxSize"};
+static constexpr std::array<std::string_view, 10> kSettings = {
+    "quality",  "texels", "error", "paths",  "encoding",
+    "compress", "direct", "bands", "detail", "maxSize"};
 
 static ExportSettings ownSettings(ExportSettings settings) {
     settings.quantity = LightmapQuantity::Irradiance;

@@ -4,24 +4,27 @@
 #include "engine/core/parallel.h"
 #include "engine/field/sample_field.h"
 #include "engine/picture/field_lobe.h"
-#include "engine/shading/pixel_rays.h"
 
 namespace limn {
+
+std::optional<SeenPoint> findSeenPoint(const TraceScene& trace, const PixelRays& rays,
+                                       std::uint32_t pixel, std::uint32_t seed) {
+    const auto width = std::uint32_t(rays.size.x);
+    const Sampler sampler{mixBits(seed, pixel), 0};
+    const glm::vec2 corner(float(pixel % width), float(pixel / width));
+    const Hit hit = trace.closestHit(rays.through(corner + sampler.pair(0)));
+    const std::optional<SurfacePoint> p = hit ? surfacePoint(trace, hit) : std::nullopt;
+    return p ? std::optional(SeenPoint{hit, *p}) : std::nullopt;
+}
 
 std::vector<SeenPoint> findSeenPoints(const TraceScene& trace, const Camera& camera,
                                       std::uint32_t width, std::uint32_t height,
                                       std::uint32_t seed) {
     const PixelRays rays(camera, width, height);
     std::vector<SeenPoint> points;
-    for (std::uint32_t i = 0; i < width * height; ++i) {
-        const Sampler sampler{mixBits(seed, i), 0};
-        const glm::vec2 corner(float(i % width), float(i / width));
-        const Hit hit = trace.closestHit(rays.through(corner + sampler.pair(0)));
-        if (!hit)
-            continue;
-        if (const std::optional<SurfacePoint> p = surfacePoint(trace, hit))
-            points.push_back({hit, *p});
-    }
+    for (std::uint32_t i = 0; i < width * height; ++i)
+        if (const std::optional<SeenPoint> p = findSeenPoint(trace, rays, i, seed))
+            points.push_back(*p);
     return points;
 }
 

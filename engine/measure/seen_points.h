@@ -5,6 +5,7 @@
 #include "engine/field/indirect_field.h"
 #include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/reference/path.h"
+#include "engine/shading/pixel_rays.h"
 #include "engine/trace/trace_scene.h"
 
 #include <cstdint>
@@ -18,6 +19,11 @@ struct SeenPoint {
     Hit hit;
     SurfacePoint surface;
 };
+
+/// A random point of pixel y * width + x; std::nullopt where it sees no surface, or the back of a
+/// one-sided one.
+std::optional<SeenPoint> findSeenPoint(const TraceScene& trace, const PixelRays& rays,
+                                       std::uint32_t pixel, std::uint32_t seed);
 
 /// One random point of each pixel that sees a surface; backs of one-sided surfaces are left out.
 std::vector<SeenPoint> findSeenPoints(const TraceScene& trace, const Camera& camera,

@@ -22,6 +22,12 @@ enum class LightmapQuantity : std::uint8_t {
     Radiance,         ///< rho E / pi [W m^-2 sr^-1]
 };
 
+/// Where the light of a lightmap's texels comes from.
+enum class LightmapQuality : std::uint8_t {
+    Final, ///< rays gather it at points under each texel
+    Draft  ///< the caches hold it
+};
+
 /// How the coefficients of a lightmap of spherical harmonics are stacked in a texture.
 enum class ShLayers : std::uint8_t { Array, Volume };
 
@@ -29,6 +35,14 @@ enum class ShLayers : std::uint8_t { Array, Volume };
 /// ExportFormat::settings.
 struct ExportSettings {
     std::string format = "gltf"; ///< ExportFormat::name
+    LightmapQuality quality = LightmapQuality::Final;
+    /// Number of texels of a final lightmap, about; 0: as many as `detail` gives a draft.
+    std::uint32_t texels = 0;
+    float error = 0; ///< maximum nRMSE of the lightmap; 0: none is asked for
+    /// Paths for each pixel of a picture in which the lightmap's error is measured, a quarter of
+    /// them from each of four points, in each of two references; 0: it is not measured, unless
+    /// `error` asks for it.
+    std::uint32_t paths = 8;
     TextureEncoding encoding = TextureEncoding::Exr;
     bool compress = false;
     LightmapQuantity quantity = LightmapQuantity::Irradiance;

@@ -13,6 +13,8 @@ namespace limn {
 // Names of the values of the export settings' enumerations, in their order: identifiers for files
 // and the command line, labels for the user interface.
 
+inline constexpr std::array<std::string_view, 2> kLightmapQualityNames = {"final", "draft"};
+inline constexpr std::array<const char*, 2> kLightmapQualityLabels = {"Final", "Draft"};
 inline constexpr std::array<std::string_view, 4> kTextureEncodingNames = {
     "exr", "ktx2-half", "ktx2-rgb9e5", "ktx2-bc6h"};
 inline constexpr std::array<const char*, 4> kTextureEncodingLabels = {
@@ -32,6 +34,46 @@ std::string missingFor(const ExportSettings& settings, std::string_view key, boo
 /// other setting; the format is not one. `s` is an ExportSettings, const or not.
 template <class S, class Visit>
 void visitExportSettings(S& s, const Visit& visit) {
+    visit(Setting{.key = "quality",
+                  .flag = "--quality",
+                  .label = "Lightmap's quality",
+                  .help = "final: rays gather the light of each texel; draft: the bake's caches "
+                          "hold it",
+                  .tooltip = "Final: rays gather light at points under each texel, which takes "
+                             "from seconds to minutes. Draft: texels repeat what the bake's "
+                             "caches hold",
+                  .invalidates = Invalidates::Light},
+          s.quality, SettingChoices{kLightmapQualityNames, kLightmapQualityLabels});
+    visit(Setting{.key = "texels",
+                  .flag = "--texels",
+                  .label = "Lightmap's texels",
+                  .help = "Texels of a final lightmap; 0: as many as a draft has",
+                  .tooltip = "About the number of texels of a final lightmap. 0: as many as a "
+                             "draft of this bake has",
+                  .invalidates = Invalidates::Light,
+                  .applies = missingFor(s, "texels").empty()},
+          s.texels, SettingRange{0, 1 << 24});
+    visit(Setting{.key = "error",
+                  .flag = "--error",
+                  .label = "Largest error",
+                  .help = "Maximum nRMSE of the lightmap that the camera sees: texels double until "
+                          "it holds; 0: none",
+                  .tooltip = "Maximum error of the exported lightmap where the first camera looks "
+                             "(nRMSE, .1 is 10 %). Texels double until it holds. 0: none is "
+                             "asked for",
+                  .invalidates = Invalidates::Light,
+                  .applies = missingFor(s, "error").empty()},
+          s.error, SettingRange{0, 10});
+    visit(Setting{.key = "paths",
+                  .flag = "--paths",
+                  .label = "Paths to measure by",
+                  .help = "Paths for each of 160 x 90 pixels to measure the lightmap's error by; "
+                          "0: it is not measured",
+                  .tooltip = "Paths that are traced for each of 160 x 90 pixels of the first "
+                             "camera's picture, to measure the error of the exported lightmap. "
+                             "0: it is not measured",
+                  .invalidates = Invalidates::Light},
+          s.paths, SettingRange{0, 65536});
     visit(Setting{.key = "encoding",
                   .flag = "--encoding",
                   .label = "Texture files",

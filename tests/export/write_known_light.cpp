@@ -31,7 +31,8 @@ std::array<glm::vec3, 9> linearLight(glm::vec3 p) {
 }
 
 bool write(const KnownLight& light, const std::string& folder, const ExportFormat& format,
-           const std::string& stem, const ExportSettings& settings) {
+           const std::string& stem, ExportSettings settings) {
+    settings.quality = LightmapQuality::Draft; // the light that the field has
     const std::string extension =
         format.extensions.empty() ? "" : std::string(format.extensions.front());
     const auto files = format.write(light.view(), settings, stem + extension, {});

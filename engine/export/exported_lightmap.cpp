@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "engine/export/exported_lightmap.h"
+
+#include "engine/export/lightmap_error.h"
+#include "engine/export/lightmap_file.h"
+#include "engine/files/ktx2.h"
+#include "engine/final_lightmap/final_lightmap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace limn {
+
+namespace {
+
+constexpr std::uint32_t kMaxTexels = 1U << 24; ///< of a final lightmap
+/// Doubling the texels is in vain where it leaves more than this part of the error.
+constexpr double kMinGain = 0.95;
+
+Result<ExportedLightmap> draftLightmap(const ExportScene& scene, const ExportSettings& settings,
+                                       PageCount pageCount, const Progress& progress) {
+    ExportedLightmap map;
+    if (pageCount == PageCount::One) {
+        const Result<std::uint32_t> detail = lightmapDetail(scene.layout, settings);
+        if (!detail)
+            return tl::make_unexpected(detail.error());
+        map.pages = onePage(scene.scene, scene.layout, *detail);
+    } else {
+        Result<LightmapPages> pages = exportPages(scene, settings);
+        if (!pages)
+            return tl::make_unexpected(pages.error());
+        map.pages = std::move(*pages);
+    }
+    Result<std::vector<LightmapImage>> images =
+        lightmapImages(scene, settings, map.pages, progress);
+    if (!images)
+        return tl::make_unexpected(images.error());
+    map.images = std::move(*images);
+    return map;
+}
+
+/// Number of texels that a final lightmap is to have.
+std::uint32_t finalTexels(const LightmapLayout& layout, const ExportSettings& settings) {
+    if (settings.texels > 0)
+        return settings.texels;
+    const std::uint64_t draft =
+        std::uint64_t(layout.width) * layout.height * settings.detail * settings.detail;
+    // About a tenth of an atlas lies between its charts.
+    return std::uint32_t(std::clamp<std::uint64_t>(draft * 9 / 10, 1, kMaxTexels));
+}
+
+LightmapImage imageOfPage(const FinalLightmap& map, const LightmapPages& pages,
+                          std::uint32_t page) {
+    const PlainLightmap plain{.width = map.layout.width,
+                              .height = map.layout.height,
+                              .texels = {},
+                              .texelAt = map.texelAt};
+    const std::vector<std::uint32_t> texelAt = pageTexels(plain, pages, page);
+    LightmapImage image{.width = pages.width, .height = pages.height, .layers = map.layers};
+    image.rgb.resize(texelAt.size() * map.layers);
+    for (std::uint32_t l = 0; l < map.layers; ++l)
+        for (std::size_t t = 0; t < texelAt.size(); ++t)
+            if (texelAt[t] != kNoTexel)
+                image.rgb[l * texelAt.size() + t] = map.values[l * map.texels() + texelAt[t]];
+    return image;
+}
+
+Result<ExportedLightmap> finalLightmap(const ExportScene& scene, const ExportSettings& settings,
+                                       PageCount pageCount, const Progress& progress) {
+    if (const Result<void> possible = checkLightmap(scene, settings); !possible)
+        return tl::make_unexpected(possible.error());
+    const IndirectField dark; // its emitted light is part of what is gathered as bounced light
+    const FinalLightmapInput input{scene.trace, scene.layout, scene.field,
+                                   scene.emitted ? *scene.emitted : dark};
+    FinalLightmapOptions options{.texels = finalTexels(scene.layout, settings),
+                                 .quantity = settings.quantity,
+                                 .direct = settings.direct,
+                                 .bands = settings.bands};
+    options.maxSide = settings.maxSize;
+    options.onePage = pageCount == PageCount::One;
+    const std::optional<FinalLightmap> map = makeFinalLightmap(input, options, progress);
+    if (!map)
+        return fail("cancelled");
+    ExportedLightmap exported;
+    exported.pages = options.onePage ? onePage(scene.scene, map->layout, 1)
+                                     : lightmapPages(scene.scene, map->layout, 1, settings.maxSize);
+    for (std::uint32_t page = 0; page < exported.pages.count; ++page)
+        exported.images.push_back(imageOfPage(*map, exported.pages, page));
+    return exported;
+}
+
+} // namespace
+
+Result<ExportedLightmap> exportedLightmap(const ExportScene& scene, const ExportSettings& settings,
+                                          PageCount pageCount, const Progress& progress) {
+    return settings.quality == LightmapQuality::Final
+               ? finalLightmap(scene, settings, pageCount, progress)
+               : draftLightmap(scene, settings, pageCount, progress);
+}
+
+/// The texels that a program reads from the files.
+static Result<std::vector<LightmapImage>> decoded(const std::vector<LightmapImage>& images,
+                                                  const std::vector<ExportFile>& files,
+                                                  const ExportSettings& settings) {
+    if (settings.encoding == TextureEncoding::Exr)
+        return images; // it holds every number as it is
+    std::vector<LightmapImage> read = images;
+    for (std::size_t page = 0; page < files.size(); ++page) {
+        const std::string& bytes = files[page].bytes;
+        const Result<Ktx2Texture> texture =
+            decodeKtx2({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, {});
+        if (!texture)
+            return tl::make_unexpected(texture.error());
+        for (std::size_t t = 0; t < texture->texels.size(); ++t)
+            read[page].rgb[t] = glm::vec3(texture->texels[t]);
+    }
+    return read;
+}
+
+static Result<WrittenLightmap> writeOnce(const ExportScene& scene, const ExportSettings& settings,
+                                         const std::string& stem, const Progress& progress) {
+    Result<ExportedLightmap> map = exportedLightmap(scene, settings, PageCount::Any, progress);
+    if (!map)
+        return tl::make_unexpected(map.error());
+    Result<std::vector<ExportFile>> files = lightmapFiles(map->images, settings, stem);
+    if (!files)
+        return tl::make_unexpected(files.error());
+    WrittenLightmap written{.pages = std::move(map->pages),
+                            .first = {},
+                            .files = std::move(*files),
+                            .error = std::nullopt};
+    if (scene.camera && (settings.paths > 0 || settings.error > 0)) {
+        const Result<std::vector<LightmapImage>> read =
+            decoded(map->images, written.files, settings);
+        if (!read)
+            return tl::make_unexpected(read.error());
+        LightmapErrorOptions options{.camera = *scene.camera};
+        const std::uint32_t points = options.pointsPerSide * options.pointsPerSide;
+        options.paths = std::max((settings.paths + points - 1) / points, 1U);
+        const Result<Comparison> error =
+            lightmapError(scene, written.pages, *read, settings, options, progress);
+        if (!error && (settings.error > 0 || progress.cancelled()))
+            return tl::make_unexpected(error.error());
+        if (error)
+            written.files.front().error = written.error = *error;
+    }
+    written.first = std::move(map->images.front());
+    written.first.rgb.clear();
+    return written;
+}
+
+Result<WrittenLightmap> writtenLightmap(const ExportScene& scene, const ExportSettings& wanted,
+                                        const std::string& stem, const Progress& progress) {
+    ExportSettings settings = wanted;
+    for (double before = std::numeric_limits<double>::infinity();;) {
+        Result<WrittenLightmap> written = writeOnce(scene, settings, stem, progress);
+        if (!written || !(settings.error > 0) || !written->error ||
+            written->error->nrmse <= double(settings.error))
+            return written;
+        const double nrmse = written->error->nrmse;
+        const std::uint32_t texels = finalTexels(scene.layout, settings);
+        if (nrmse > kMinGain * before || texels > kMaxTexels / 2)
+            return fail(fmt::format("error: it is {:.3f} with {} texels, not {:g}, and more texels "
+                                    "hardly reduce it",
+                                    nrmse, texels, settings.error));
+        before = nrmse;
+        settings.texels = 2 * texels;
+    }
+}
+
+ExportForecast forecastLightmapOf(const ExportScene& scene, const ExportSettings& settings,
+                                  PageCount pageCount) {
+    if (settings.quality == LightmapQuality::Draft)
+        return pageCount == PageCount::One ? forecastLightmap(scene.layout, settings)
+                                           : forecastPages(scene, settings);
+    const double texels = double(finalTexels(scene.layout, settings)) / 0.9;
+    const auto side = std::uint32_t(std::ceil(std::sqrt(texels)));
+    ExportForecast f{.width = std::min(side, settings.maxSize),
+                     .height = std::min(side, settings.maxSize)};
+    if (pageCount == PageCount::Any)
+        f.pages = std::uint32_t(std::ceil(texels / (double(settings.maxSize) * settings.maxSize)));
+    f.bytes = lightmapBytes(std::uint64_t(f.width) * f.height * f.pages, settings);
+    return f;
+}
+
+} // namespace limn

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "engine/final_lightmap/fit_input.h"
+
+#include "engine/lightmap/plain_lightmap.h"
+
+namespace limn {
+
+std::vector<FittedPoint> fittedPoints(const LitTexels& lit) {
+    std::vector<FittedPoint> points;
+    for (std::uint32_t t = 0; t < lit.atlas.texels.size(); ++t)
+        for (std::uint32_t k = 0; lit.open[t] != 0 && k < lit.atlas.texels[t].count; ++k)
+            points.push_back({t, k});
+    return points;
+}
+
+Hit hitOf(const Scene& scene, const LitTexels& lit, const FittedPoint& p) {
+    const AtlasTexel& texel = lit.atlas.texels[p.texel];
+    return hitOfPoint(scene, texel.instance, texel.points[p.point], texel.back != 0);
+}
+
+TexelFitInput fitInput(const Scene& scene, const LitTexels& lit,
+                       const std::vector<FittedPoint>& points) {
+    TexelFitInput fit;
+    fit.texels = lit.atlas.texels.size();
+    fit.points.reserve(points.size());
+    for (const FittedPoint& p : points) {
+        const AtlasTexel& texel = lit.atlas.texels[p.texel];
+        fit.points.push_back(lookUpTexels(lit, texel.instance, scene.instances[texel.instance].mesh,
+                                          texel.points[p.point], texel.back != 0));
+        fit.weights.push_back(1 / float(texel.count));
+    }
+    const std::uint32_t width = lit.atlas.layout.width;
+    for (std::uint32_t t = 0; t < lit.atlas.texels.size(); ++t) {
+        const std::uint32_t place = lit.atlas.texels[t].texel;
+        const auto add = [&](std::uint32_t next) {
+            if (next < lit.texelAt.size() && lit.texelAt[next] != kNoTexel &&
+                lit.atlas.texels[lit.texelAt[next]].instance == lit.atlas.texels[t].instance &&
+                lit.atlas.texels[lit.texelAt[next]].back == lit.atlas.texels[t].back)
+                fit.neighbours.emplace_back(t, lit.texelAt[next]);
+        };
+        if (place % width + 1 < width)
+            add(place + 1);
+        add(place + width);
+    }
+    fit.seams = findSeams(scene, lit);
+    return fit;
+}
+
+std::vector<glm::vec3> meanOfTexels(const LitTexels& lit, const std::vector<FittedPoint>& points,
+                                    const std::vector<glm::vec3>& light) {
+    std::vector<glm::vec3> mean(lit.atlas.texels.size());
+    for (std::size_t p = 0; p < points.size(); ++p)
+        mean[points[p].texel] += light[p] / float(lit.atlas.texels[points[p].texel].count);
+    return mean;
+}
+
+} // namespace limn

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/final_lightmap/fit_texels.h"
+#include "engine/final_lightmap/lit_texels.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// A point of an open texel at which a lightmap is to be right.
+struct FittedPoint {
+    std::uint32_t texel, point; ///< point of the texel
+};
+
+/// The points of all open texels.
+std::vector<FittedPoint> fittedPoints(const LitTexels& lit);
+
+/// That point, as a ray from above hits it.
+Hit hitOf(const Scene& scene, const LitTexels& lit, const FittedPoint& p);
+
+/// What texels are fitted to at those points. The points of a texel count as much as those of any
+/// other.
+TexelFitInput fitInput(const Scene& scene, const LitTexels& lit,
+                       const std::vector<FittedPoint>& points);
+
+/// The mean light of each texel's points; 0 where a texel has none.
+std::vector<glm::vec3> meanOfTexels(const LitTexels& lit, const std::vector<FittedPoint>& points,
+                                    const std::vector<glm::vec3>& light);
+
+} // namespace limn

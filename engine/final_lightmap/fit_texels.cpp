@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "engine/final_lightmap/fit_texels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+
+namespace limn {
+
+/// Weight of a neighbour's difference, beside that of a texel's own points, which is about 1.
+static constexpr double kSmoothness = 0.01;
+/// Weight of a seam of one texel's length.
+static constexpr double kSeam = 4;
+static constexpr double kTolerance = 1e-4;
+static constexpr int kMaxSteps = 200;
+
+using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+
+struct TexelFit::Solver {
+    Matrix rows;
+    std::vector<double> pointScale; ///< square roots of the points' weights
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;
+    Eigen::LeastSquaresConjugateGradient<Matrix> solver;
+};
+
+namespace {
+
+/// Fills a matrix row by row, which needs no memory beside it.
+struct RowWriter {
+    Matrix& rows;
+    int row = 0;
+    std::array<std::pair<std::uint32_t, double>, 8> entries{};
+    std::size_t count = 0;
+
+    void add(std::uint32_t texel, double value) {
+        for (std::size_t k = 0; k < count; ++k)
+            if (entries[k].first == texel) {
+                entries[k].second += value;
+                return;
+            }
+        entries[count++] = {texel, value};
+    }
+    void add(const TexelLookup& lookup, double scale) {
+        for (std::size_t k = 0; k < 4; ++k)
+            if (lookup.weight[k] != 0)
+                add(lookup.texel[k], scale * double(lookup.weight[k]));
+    }
+    void endRow() {
+        std::sort(entries.begin(), entries.begin() + std::ptrdiff_t(count));
+        rows.startVec(row);
+        for (std::size_t k = 0; k < count; ++k)
+            rows.insertBack(row, int(entries[k].first)) = entries[k].second;
+        ++row;
+        count = 0;
+    }
+};
+
+} // namespace
+
+TexelFit::TexelFit(const TexelFitInput& input) : m_solver(std::make_unique<Solver>()) {
+    Solver& s = *m_solver;
+    const std::size_t rows = input.points.size() + input.neighbours.size() + input.seams.size();
+    s.rows.resize(Eigen::Index(rows), Eigen::Index(input.texels));
+    s.rows.reserve(Eigen::Index(4 * input.points.size() + 2 * input.neighbours.size() +
+                                8 * input.seams.size()));
+    RowWriter writer{s.rows};
+    s.pointScale.reserve(input.points.size());
+    for (std::size_t p = 0; p < input.points.size(); ++p) {
+        s.pointScale.push_back(std::sqrt(double(input.weights[p])));
+        writer.add(input.points[p], s.pointScale.back());
+        writer.endRow();
+    }
+    s.neighbours = input.neighbours;
+    for (const auto& [a, b] : s.neighbours) {
+        writer.add(a, std::sqrt(kSmoothness));
+        writer.add(b, -std::sqrt(kSmoothness));
+        writer.endRow();
+    }
+    for (const SeamLookup& seam : input.seams) {
+        const double scale = std::sqrt(kSeam * double(seam.length));
+        writer.add(seam.first, scale);
+        writer.add(seam.second, -scale);
+        writer.endRow();
+    }
+    s.rows.finalize();
+    s.solver.setTolerance(kTolerance);
+    s.solver.setMaxIterations(kMaxSteps);
+    s.solver.compute(s.rows);
+}
+
+TexelFit::~TexelFit() = default;
+
+std::vector<glm::vec3> TexelFit::solve(const std::vector<glm::vec3>& light,
+                                       const std::vector<glm::vec3>& first) const {
+    const Solver& s = *m_solver;
+    std::vector<glm::vec3> fitted(first.size());
+    for (int channel = 0; channel < 3; ++channel) {
+        Eigen::VectorXd wanted = Eigen::VectorXd::Zero(s.rows.rows());
+        for (std::size_t p = 0; p < light.size(); ++p)
+            wanted[Eigen::Index(p)] = s.pointScale[p] * double(light[p][channel]);
+        for (std::size_t k = 0; k < s.neighbours.size(); ++k) {
+            const auto [a, b] = s.neighbours[k];
+            wanted[Eigen::Index(light.size() + k)] =
+                std::sqrt(kSmoothness) * (double(first[a][channel]) - double(first[b][channel]));
+        }
+        Eigen::VectorXd start(Eigen::Index(first.size()));
+        for (std::size_t t = 0; t < first.size(); ++t)
+            start[Eigen::Index(t)] = double(first[t][channel]);
+        const Eigen::VectorXd solution = s.solver.solveWithGuess(wanted, start);
+        for (std::size_t t = 0; t < first.size(); ++t)
+            fitted[t][channel] = float(solution[Eigen::Index(t)]);
+    }
+    return fitted;
+}
+
+} // namespace limn

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "engine/final_lightmap/lit_texels.h"
+
+#include "engine/core/parallel.h"
+#include "engine/lightmap/lightmap_pages.h"
+#include "engine/lightmap/plain_lightmap.h"
+#include "engine/lightmap/texel_side.h"
+#include "engine/picture/gathered_light.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace limn {
+
+/// Whether texels are of one surface, and nothing stands between them.
+static bool areTogether(const SideFinder& sides, const Atlas& atlas,
+                        const std::vector<TexelSide>& side, std::uint32_t a, std::uint32_t b) {
+    const AtlasTexel &x = atlas.texels[a], &y = atlas.texels[b];
+    return x.instance == y.instance && x.back == y.back && side[a].chart == side[b].chart &&
+           side[a].open && side[b].open && sides.sees(side[a].points[0], side[b].points[0]);
+}
+
+/// The longest side that has to fit into a texture.
+static std::uint32_t sideOf(const Scene& scene, const LightmapLayout& layout, bool onePage) {
+    return onePage ? std::max(layout.width, layout.height) : largestChart(scene, layout).side;
+}
+
+/// The atlas of about so many texels, or of fewer where its sides would be too long.
+static Atlas layAtlas(const Scene& scene, const std::vector<MeshCharts>& charts,
+                      const ChartFactors& factors, const LitTexelCount& count,
+                      const Progress& progress) {
+    BakeSettings settings = scene.bake;
+    settings.texelsPerMetre = 0;
+    settings.lightmapCaches = count.texels;
+    for (;;) {
+        Atlas atlas = buildAtlas(scene, charts, settings, factors, progress);
+        const std::uint32_t side = sideOf(scene, atlas.layout, count.onePage);
+        if (progress.cancelled() || side <= count.maxSide || settings.lightmapCaches == 1)
+            return atlas;
+        const double shrunk = std::pow(double(count.maxSide) / side, 2);
+        settings.lightmapCaches =
+            std::max(std::uint32_t(settings.lightmapCaches * std::min(shrunk, 0.95)), 1U);
+    }
+}
+
+LitTexels layLitTexels(const Scene& scene, const std::vector<MeshCharts>& charts,
+                       const ChartFactors& factors, const LitTexelCount& count,
+                       const Progress& progress) {
+    LitTexels lit;
+    progress.at("texels", 0);
+    lit.atlas = layAtlas(scene, charts, factors, count, progress);
+    const LightmapLayout& layout = lit.atlas.layout;
+    lit.texelAt.assign(std::size_t(layout.width) * layout.height, kNoTexel);
+    for (std::uint32_t i = 0; i < lit.atlas.texels.size(); ++i)
+        lit.texelAt[lit.atlas.texels[i].texel] = i;
+    lit.open.assign(lit.atlas.texels.size(), 1);
+    lit.shares.assign(lit.texelAt.size(), 0);
+    return lit;
+}
+
+void findOpenTexels(const TraceScene& trace, LitTexels& lit, const Progress& progress) {
+    const Atlas laid = lit.atlas;
+    const std::uint32_t width = laid.layout.width;
+    std::atomic<std::uint64_t> rays = 0;
+    const SideFinder sides{trace, laid, rays};
+    std::vector<TexelSide> side(laid.texels.size());
+    constexpr std::size_t kGrain = 64;
+    const bool done = parallelRanges(side.size(), kGrain, progress, "texels",
+                                     [&](std::size_t begin, std::size_t end) {
+                                         for (std::size_t t = begin; t < end; ++t) {
+                                             side[t] = sides.choose(lit.atlas.texels[t]);
+                                             lit.open[t] = side[t].open ? 1 : 0;
+                                         }
+                                     });
+    if (!done)
+        return;
+    parallelRanges(
+        side.size(), kGrain, progress, "texels", [&](std::size_t begin, std::size_t end) {
+            for (std::size_t t = begin; t < end; ++t) {
+                const std::uint32_t place = laid.texels[t].texel;
+                const auto sharesWith = [&](bool inside, std::uint32_t next, SharesNoise which) {
+                    if (inside && lit.texelAt[next] != kNoTexel &&
+                        areTogether(sides, laid, side, std::uint32_t(t), lit.texelAt[next]))
+                        lit.shares[place] |= which;
+                };
+                sharesWith(place % width + 1 < width, place + 1, WithRight);
+                sharesWith(place / width + 1 < laid.layout.height, place + width, WithBelow);
+            }
+        });
+}
+
+} // namespace limn

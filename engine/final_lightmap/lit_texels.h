@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/lightmap/atlas.h"
+#include "engine/trace/trace_scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace limn {
+
+/// Texels of an exported lightmap, which programs look up bilinearly without LightmapLayout::snaps.
+struct LitTexels {
+    /// Its layout has no snaps. Each texel keeps points on one side of all walls only, in
+    /// proportion to how open each of them is, as findTexelSides() chooses them.
+    Atlas atlas;
+    std::vector<std::uint32_t> texelAt; ///< index into Atlas::texels, or kNoTexel, at y * width + x
+    std::vector<std::uint8_t> open;     ///< per texel: whether any of its points is
+    /// Sets of SharesNoise at y * width + x: neighbours of one chart with no wall between them.
+    std::vector<std::uint8_t> shares;
+};
+
+/// How many texels there are to be.
+struct LitTexelCount {
+    std::uint32_t texels = 1; ///< about, > 0
+    /// Longest side of a chart, or of the whole lightmap if it is to be one page [texels]. There
+    /// are as many fewer texels as that takes.
+    std::uint32_t maxSide = 1U << 14;
+    bool onePage = false;
+};
+
+/// Multiplies the texels per metre, per instance and chart; empty, as a whole or for an instance,
+/// means 1.
+using ChartFactors = std::vector<std::vector<float>>;
+
+/// Lays texels for all static instances, in charts that `charts` gives per mesh. All are open, and
+/// none shares noise, until findOpenTexels(). Incomplete when cancelled.
+LitTexels layLitTexels(const Scene& scene, const std::vector<MeshCharts>& charts,
+                       const ChartFactors& factors, const LitTexelCount& count,
+                       const Progress& progress);
+
+/// Finds which points of texels are open, and which neighbours share noise. Incomplete when
+/// cancelled.
+void findOpenTexels(const TraceScene& trace, LitTexels& lit, const Progress& progress);
+
+} // namespace limn
