@@ -12,16 +12,19 @@ namespace limn {
 
 namespace {
 
-/// Errors below this part of the mean light are taken to be as large.
-constexpr double kFloor = 0.01;
+/// Errors are relative to the light of their chart, or to this part of the mean light where that is
+/// more; those below kFloor are taken to be as large. So a bright place that nobody may see takes
+/// no texels from a dim one.
+constexpr double kDim = 0.1, kFloor = 0.01;
 /// A trial has this part of the texels: its residual is larger and found faster.
 constexpr std::uint32_t kTrial = 2;
 constexpr double kMinChange = 0.7, kMaxChange = 2;
 constexpr int kTrials = 2;
 
-/// Squared error of a chart, summed over points, and the number of these.
+/// Sums over the points of a chart, of greys.
 struct ChartResidual {
-    double squared = 0, points = 0;
+    double squared = 0; ///< of squared errors
+    double light = 0, points = 0;
 };
 using Residuals = std::vector<std::vector<ChartResidual>>;
 
@@ -50,6 +53,7 @@ double addResiduals(const Scene& scene, const LitTexels& lit, const LightOfPoint
         const double error = greyOf(shown - wanted[p]);
         ChartResidual& residual = residuals[texel.instance][chart];
         residual.squared += error * error;
+        residual.light += greyOf(wanted[p]);
         ++residual.points;
         sum += greyOf(wanted[p]);
     }
@@ -73,11 +77,15 @@ ChartFactors factorsByResidual(const Scene& scene, const std::vector<MeshCharts>
         Residuals residuals(factors.size());
         for (std::size_t i = 0; i < factors.size(); ++i)
             residuals[i].resize(factors[i].size());
-        const double floor = std::pow(kFloor * addResiduals(scene, lit, light, residuals), 2);
+        const double dim = kDim * addResiduals(scene, lit, light, residuals);
+        if (!(dim > 0))
+            return before;
         // The fourth root of squared error over texels, and its mean over all texels.
         const auto need = [&](std::size_t i, std::size_t c) {
             const ChartResidual& r = residuals[i][c];
-            const double squared = r.squared / r.points + floor;
+            const double mean = r.light / r.points;
+            const double squared =
+                r.squared / r.points / (mean * mean + dim * dim) + kFloor * kFloor;
             return std::sqrt(std::sqrt(squared)) / std::sqrt(double(factors[i][c]));
         };
         double sum = 0, points = 0;
@@ -87,8 +95,6 @@ ChartFactors factorsByResidual(const Scene& scene, const std::vector<MeshCharts>
                     sum += n * need(i, c);
                     points += n;
                 }
-        if (!(sum > 0))
-            return before;
         for (std::size_t i = 0; i < factors.size(); ++i)
             for (std::size_t c = 0; c < factors[i].size(); ++c)
                 if (residuals[i][c].points > 0) {

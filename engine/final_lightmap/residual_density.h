@@ -14,7 +14,8 @@ namespace limn {
 /// Light at a point of a surface, that a lightmap is to show.
 using LightOfPoint = std::function<glm::vec3(const Hit& hit)>;
 
-/// Factors of charts with which a lightmap of so many texels has about the least squared error:
+/// Factors of charts with which a lightmap of so many texels has about the least squared relative
+/// error:
 /// a trial lightmap is fitted to `light`, and what is left of it tells where texels are too few, as
 /// beside edges of light and around thin columns. Where the squared error falls in proportion to
 /// the number of texels, it is least where each chart has texels in proportion to the square root
