@@ -75,6 +75,10 @@ static Bounds instanceBounds(const Scene& scene, bool dynamic) {
     return isEmpty(all) ? Bounds{} : all;
 }
 
+bool isTwoSided(const Scene& scene, const Instance& instance) {
+    return isTwoSided(scene.materialOf(instance)) && !instance.darkBacks;
+}
+
 bool shines(const Light& l) {
     return l.enabled && l.strength > 0 && (l.color.x > 0 || l.color.y > 0 || l.color.z > 0);
 }

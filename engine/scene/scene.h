@@ -29,6 +29,8 @@ struct Instance {
     std::uint32_t material = 0; ///< index into Scene::materials
     ObjectId node = 0;          ///< the node it came from
     bool dynamic = false;
+    /// Bakes leave out the backs, because they face sealed dark space. Set by leaveOutDarkBacks().
+    bool darkBacks = false;
     float texelDensity = 1; ///< Placement::texelDensity
     glm::mat4 toWorld{1};
     /// sign(det) * cofactor matrix of toWorld; not normalised. As in glTF, a mirrored instance
@@ -63,6 +65,10 @@ struct Scene {
     const Mesh& meshOf(const Instance& i) const { return assets->meshes[i.mesh]; }
     const Material& materialOf(const Instance& i) const { return materials[i.material]; }
 };
+
+/// Whether light leaves both sides of an instance in a bake: those of a two-sided material whose
+/// backs are not left out.
+bool isTwoSided(const Scene& scene, const Instance& instance);
 
 /// World-space bounding box of the static instances, which contains all that a bake may depend on.
 /// 0 if there are none.

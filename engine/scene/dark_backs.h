@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/scene/mesh/closed_surfaces.h"
+#include "engine/scene/scene.h"
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+
+namespace limn {
+
+/// A closed surface of static, opaque instances that have one transform.
+struct PlacedSurface {
+    std::vector<std::uint32_t> instances; ///< that the shell's triangles name by their `mesh`
+    std::vector<const Mesh*> meshes;      ///< theirs
+    ClosedSurface surface;                ///< in their object space
+    glm::dmat4 toObject{1};
+
+    bool isBehind(glm::dvec3 world) const;
+};
+
+/// Finds the closed surfaces of a scene. Instances that move, have holes or let light through
+/// belong to none.
+std::vector<PlacedSurface> findClosedSurfaces(const Scene& scene);
+
+/// Whether anything behind a surface lights or sees its back: a camera (that of chooseCamera() in a
+/// scene without any), a light, emissive triangles, the middle of a dynamic object, the back itself
+/// where it is emissive; behind a room also the sky and the sun. Lights count even where they are
+/// off, but a black sky does not.
+bool isLitOrSeenBehind(const Scene& scene, const PlacedSurface& placed);
+
+/// Sets Instance::darkBacks of those two-sided static instances all of whose triangles belong to
+/// closed surfaces that are neither lit nor seen behind, and clears that of all others.
+void leaveOutDarkBacks(Scene& scene);
+
+} // namespace limn
