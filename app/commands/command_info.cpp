@@ -10,6 +10,8 @@
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "engine/json/json.h"
+#include "engine/scene/dark_backs.h"
+#include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/scene/origin.h"
 #include "engine/techniques/technique_table.h"
 
@@ -26,6 +28,23 @@ static std::uint64_t bytesOf(const Mesh& mesh) {
     const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
     return bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.tangents) + bytes(mesh.uv0) +
            bytes(mesh.uv1) + bytes(mesh.colors) + bytes(mesh.indices);
+}
+
+/// What bakes leave out: instances whose backs face sealed dark space, and the share of these backs
+/// in the area of all lit sides.
+static Json describeDarkBacks(Scene scene) {
+    leaveOutDarkBacks(scene);
+    std::uint64_t instances = 0;
+    double dark = 0, all = 0;
+    for (const Instance& i : scene.instances) {
+        if (i.dynamic)
+            continue;
+        const double area = worldArea(scene, i);
+        instances += i.darkBacks;
+        dark += i.darkBacks ? area : 0;
+        all += isTwoSided(scene.materialOf(i)) ? 2 * area : area;
+    }
+    return {{"instances", instances}, {"share", all > 0 ? dark / all : 0}};
 }
 
 static Json describe(const ImportedScene& imported) {
@@ -57,6 +76,7 @@ static Json describe(const ImportedScene& imported) {
     json["bounds"] = {{"lower", vectorJson(toFile(scene.origin, scene.bounds.lower))},
                       {"upper", vectorJson(toFile(scene.origin, scene.bounds.upper))}};
     json["bytes"] = {{"geometry", geometry}, {"images", images}, {"total", geometry + images}};
+    json["dark_backs"] = describeDarkBacks(scene);
     json["repairs"] = imported.repairs;
     return json;
 }

@@ -16,7 +16,7 @@ Scene selectionScene(Scene scene, std::span<const ObjectId> nodes) {
     for (Instance& instance : scene.instances) {
         if (instance.dynamic)
             continue;
-        const double sides = isTwoSided(scene.materialOf(instance)) ? 2 : 1;
+        const double sides = isTwoSided(scene, instance) ? 2 : 1;
         const double area = worldArea(scene, instance) * sides;
         before += area * std::pow(double(instance.texelDensity), 2);
         if (!chosen.contains(instance.node))

@@ -115,7 +115,8 @@ FieldLookup lookUp(const FieldPoint& point) {
     if (point.instance >= layout.instances.size() || layout.instances[point.instance].uv.empty())
         return point.field.grid.empty() ? FieldLookup{}
                                         : gridLookup(point.field, point.position, point.normal);
-    if (point.field.lightmap.empty())
+    const bool leftOut = point.back && layout.instances[point.instance].backRows == 0;
+    if (point.field.lightmap.empty() || leftOut)
         return {};
     const Bilinear b = bilinearAt(layout, lightmapUv(layout, point.instance,
                                                      point.scene.instances[point.instance].mesh,

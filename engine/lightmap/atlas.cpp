@@ -155,7 +155,7 @@ double wantedTexels(const Scene& scene) {
     double area = 0;
     for (const Instance& i : scene.instances)
         if (!i.dynamic)
-            area += worldArea(scene, i) * (isTwoSided(scene.materialOf(i)) ? 2 : 1) *
+            area += worldArea(scene, i) * (isTwoSided(scene, i) ? 2 : 1) *
                     std::pow(double(i.texelDensity), 2);
     return area * perMetre * perMetre;
 }

@@ -47,8 +47,7 @@ std::uint64_t atlasKey(const Scene& scene, const std::vector<std::uint64_t>& mes
     std::uint64_t h = hashValue(settings.texelsPerMetre, settings.lightmapCaches);
     for (const Instance& i : scene.instances) {
         h = hashValue(atlasScale(i), hashValue(meshes[i.mesh], h));
-        h = hashValue(std::uint32_t(i.dynamic),
-                      hashValue(std::uint32_t(isTwoSided(scene.materialOf(i))), h));
+        h = hashValue(std::uint32_t(i.dynamic), hashValue(std::uint32_t(isTwoSided(scene, i)), h));
     }
     for (const std::vector<float>& factors : density.texels)
         h = hashVector(factors, h);
@@ -63,6 +62,7 @@ std::uint64_t surfacesKey(const TraceScene& trace, const std::vector<std::uint64
     for (const Instance& i : scene.instances) {
         h = hashValue(std::uint32_t(i.dynamic), hashValue(i.node, hashValue(meshes[i.mesh], h)));
         h = hashSurface(scene, scene.materialOf(i), hashBytes(&i.toWorld, sizeof i.toWorld, h));
+        h = hashValue(std::uint32_t(i.darkBacks), h);
     }
     return h;
 }

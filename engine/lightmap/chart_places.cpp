@@ -249,7 +249,7 @@ bool hasLightmap(const AtlasInput& in, const Instance& instance) {
 }
 
 std::uint32_t sidesOf(const AtlasInput& in, const Instance& instance) {
-    return isTwoSided(in.scene.materialOf(instance)) ? 2 : 1;
+    return isTwoSided(in.scene, instance) ? 2 : 1;
 }
 
 glm::vec2 cornerInPlace(const AtlasInput& in, const ChartPlace& place, std::uint32_t triangle,

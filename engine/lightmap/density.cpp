@@ -177,7 +177,7 @@ void DensityFinder::look(Probe& probe, Met* met) const {
         if (!hit)
             continue;
         const Instance& other = m_scene.instances[hit.instance];
-        if (!hit.frontFace && !isTwoSided(m_scene.materialOf(other)))
+        if (!hit.frontFace && !isTwoSided(m_scene, other))
             ++backs;
         else
             met[r] = {hit.instance,

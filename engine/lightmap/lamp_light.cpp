@@ -63,7 +63,7 @@ double LampLight::weighted(const Emitter& emitter, glm::vec3 normal, glm::vec3 d
                            double cosine, std::uint32_t samples) const {
     const Scene& scene = m_trace.scene();
     double facing = -double(glm::dot(normal, direction));
-    if (isTwoSided(scene.materialOf(scene.instances[emitter.instance])))
+    if (isTwoSided(scene, scene.instances[emitter.instance]))
         facing = std::abs(facing);
     if (!(cosine > 0 && facing > 0))
         return 0;
@@ -149,7 +149,7 @@ LampIrradiance LampLight::at(const WorldPoint& point, float reach, std::uint32_t
             toWorld * glm::vec3(across * std::cos(angle), across * std::sin(angle), cosine);
         const Hit hit = m_trace.closestHit({from, direction}, TraceMask::Static);
         const bool back =
-            hit && !hit.frontFace && !isTwoSided(scene.materialOf(scene.instances[hit.instance]));
+            hit && !hit.frontFace && !isTwoSided(scene, scene.instances[hit.instance]);
         open += back || (hit && hit.t < reach) ? 0 : 1;
         if (!hit)
             continue;

@@ -32,9 +32,8 @@ Outlook SideFinder::look(const WorldPoint& point, float reach, std::uint32_t see
     for (std::uint32_t i = 0; i < kProbesPerPoint; ++i) {
         const SurfaceHit hit =
             trace.closestSurface({from, toWorld * directions[i]}, TraceMask::Static);
-        const bool inSolid =
-            hit && !hit.frontFace &&
-            !isTwoSided(trace.scene().materialOf(trace.scene().instances[hit.instance]));
+        const bool inSolid = hit && !hit.frontFace &&
+                             !isTwoSided(trace.scene(), trace.scene().instances[hit.instance]);
         result.open += inSolid || (hit && hit.t < reach) ? 0 : 1;
         result.distances += hit ? std::min(hit.t, kFar * reach) : kFar * reach;
     }

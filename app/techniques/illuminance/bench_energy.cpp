@@ -6,6 +6,7 @@
 #include "app/techniques/illuminance/illuminance_program.h"
 
 #include "engine/core/parallel.h"
+#include "engine/scene/dark_backs.h"
 #include "engine/stages/stage_store.h"
 #include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/measure/energy_chain.h"
@@ -119,6 +120,7 @@ Exit runEnergyBench(const EnergyBench& o) {
     if (!imported)
         return failed(imported.error().message);
     Scene scene = flatten(imported->document, imported->assets);
+    leaveOutDarkBacks(scene); // as the bake does
     const Result<EnergyChain> chain = measure(o, scene);
     if (!chain)
         return failed(fmt::format("{}: {}", o.scene.scene, chain.error().message));

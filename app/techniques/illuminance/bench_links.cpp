@@ -7,6 +7,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/scene/bake_settings_fields.h"
+#include "engine/scene/dark_backs.h"
 #include "engine/stages/stage_store.h"
 #include "engine/techniques/illuminance/bake/baker.h"
 #include "engine/techniques/illuminance/measure/baked_senders.h"
@@ -66,6 +67,7 @@ Result<void> measureScene(const LinksBench& o, const std::string& path, Json& ro
     if (!imported)
         return tl::make_unexpected(imported.error());
     Scene scene = flatten(imported->document, imported->assets);
+    leaveOutDarkBacks(scene); // as the bake does
     applyBakeOptions(o.bake, scene.bake);
     const TraceScene trace(scene);
     StageStore store;

@@ -28,7 +28,7 @@ struct InstanceLightmap {
     /// from the grid.
     std::vector<glm::vec2> uv;
     /// For a two-sided surface, rows of texels from a point's position on the front down to its
-    /// position on the back. 0: one-sided.
+    /// position on the back. 0: one-sided, or the back has no light (Instance::darkBacks).
     std::uint32_t backRows = 0;
 
     bool operator==(const InstanceLightmap&) const = default;

@@ -157,7 +157,7 @@ std::uint64_t minTexels(const Scene& scene) {
         if (!i.dynamic) {
             if (ways[i.mesh] == ~0U)
                 ways[i.mesh] = waysFaced(scene.meshOf(i));
-            sum += std::uint64_t(ways[i.mesh]) * (isTwoSided(scene.materialOf(i)) ? 2 : 1);
+            sum += std::uint64_t(ways[i.mesh]) * (isTwoSided(scene, i) ? 2 : 1);
         }
     return sum;
 }

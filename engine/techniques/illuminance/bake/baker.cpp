@@ -8,6 +8,7 @@
 #include "engine/field/grid_placement.h"
 #include "engine/lightmap/atlas_stage.h"
 #include "engine/lightmap/layout/layout_rules.h"
+#include "engine/scene/dark_backs.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/scene/reach.h"
 #include "engine/stages/stage_archive.h"
@@ -368,19 +369,22 @@ Result<void> linkCaches(BakeRun& run, const GatherHits& hits, TraceReport& trace
 
 } // namespace
 
-Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore* store,
+Result<Bake> bake(const TraceScene& whole, const Progress& progress, StageStore* store,
                   const BakeSettings* settings, const MemoryBudget& memory) {
-    Scene scene = trace.scene();
+    Scene scene = whole.scene();
     if (settings)
         scene.bake = *settings;
     if (const Result<void> possible = checkBake(scene, store != nullptr, memory); !possible)
         return tl::make_unexpected(possible.error());
+    const std::uint64_t sceneHash = bakeInputHash(scene);
+    leaveOutDarkBacks(scene);
+    const TraceScene trace(scene, whole);
     BakeRun run{.trace = trace,
                 .scene = scene,
                 .progress = progress,
                 .store = store,
                 .meshes = hashMeshes(scene),
-                .bake = {.settings = scene.bake, .sceneHash = bakeInputHash(scene)}};
+                .bake = {.settings = scene.bake, .sceneHash = sceneHash}};
     if (const Result<void> placed = placeSenders(run); !placed)
         return tl::make_unexpected(placed.error());
     if (const Result<void> placed = placeReceivers(run); !placed)
@@ -400,7 +404,7 @@ Result<Bake> bake(const TraceScene& trace, const Progress& progress, StageStore*
     result.keptStages = std::move(run.clock.keptStages);
     // Stages that were changed in the store may pass their own checks and still not fit together.
     if (store && !bakeDefect(result, &scene).empty())
-        return bake(trace, progress, nullptr, settings, memory);
+        return bake(whole, progress, nullptr, settings, memory);
     return std::move(result);
 }
 

@@ -91,7 +91,7 @@ inline constexpr std::uint32_t kDepthsPerCell = GRID_DEPTH_SIDE * GRID_DEPTH_SID
 
 /// Version of what the stages of a bake compute. Raise it whenever a change of one makes the light
 /// of bakes that were made before worse than that of new ones. Files without it count as 0.
-inline constexpr std::uint32_t kBakerVersion = 2;
+inline constexpr std::uint32_t kBakerVersion = 3;
 
 /// Everything that relighting needs. The same document gives the same bytes at any number of
 /// threads.

@@ -219,7 +219,7 @@ RayGatherer::Place RayGatherer::placeOf(const SurfaceHit& hit, glm::vec3 directi
         return {~0U, {skyCellOf(direction), 0}, false, false};
     const Scene& scene = m_trace.scene();
     const Instance& instance = scene.instances[hit.instance];
-    const bool twoSided = isTwoSided(scene.materialOf(instance));
+    const bool twoSided = isTwoSided(scene, instance);
     return {hit.instance, m_owners.tableOf(instance.mesh).cellAt(hit.triangle, hit.u, hit.v),
             !hit.frontFace && twoSided, !hit.frontFace && !twoSided};
 }

@@ -81,7 +81,8 @@ TraceRecord describeTrace(const TraceScene& trace, const SurfelSet& set, const O
         const std::uint32_t count = set.instanceBegin[i + 1] - set.instanceBegin[i];
         if (count > 0)
             record.instances.push_back(
-                {hashValue(surface[instance.material], meshes[instance.mesh]),
+                {hashValue(std::uint32_t(instance.darkBacks),
+                           hashValue(surface[instance.material], meshes[instance.mesh])),
                  surfels[instance.mesh], instance.toWorld, count, i});
     }
     record.parted = owners.sides().changed;

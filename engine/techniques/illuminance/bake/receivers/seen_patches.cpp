@@ -77,8 +77,9 @@ void PatchHits::addLight(const SurfaceHit& hit, float irradiance, LightShares& s
         sum.sky += irradiance;
         return;
     }
-    const Material& material = trace.scene().materialOf(trace.scene().instances[hit.instance]);
-    if (emits(material) && (hit.frontFace || isTwoSided(material)))
+    const Scene& scene = trace.scene();
+    const Instance& instance = scene.instances[hit.instance];
+    if (emits(scene.materialOf(instance)) && (hit.frontFace || isTwoSided(scene, instance)))
         sum.lamps += irradiance;
 }
 

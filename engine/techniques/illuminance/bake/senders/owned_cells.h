@@ -24,7 +24,7 @@ template <class Visit>
 void forOwnedCells(const Scene& scene, const OwnerTables& owners, std::uint32_t instance,
                    const Visit& visit) {
     const Instance& placed = scene.instances[instance];
-    const std::uint32_t sides = isTwoSided(scene.materialOf(placed)) ? 2 : 1;
+    const std::uint32_t sides = isTwoSided(scene, placed) ? 2 : 1;
     for (std::uint32_t t = 0; t < scene.meshOf(placed).triangleCount(); ++t) {
         const auto area = double(triangleWorldArea(scene, placed, t));
         owners.tableOf(placed.mesh).forCellsOf(t, [&](const SurfelOwners::Cell& c) {

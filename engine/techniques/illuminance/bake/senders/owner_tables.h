@@ -42,7 +42,7 @@ public:
     /// Length of PatchSides::owner for an instance with surfels.
     std::uint64_t cellsOf(std::uint32_t instance) const {
         const Instance& i = m_scene.instances[instance];
-        return std::uint64_t(tableOf(i.mesh).cells()) * (isTwoSided(m_scene.materialOf(i)) ? 2 : 1);
+        return std::uint64_t(tableOf(i.mesh).cells()) * (isTwoSided(m_scene, i) ? 2 : 1);
     }
 
     /// The surfel of the scene that stands for a place in the table of an instance's mesh.

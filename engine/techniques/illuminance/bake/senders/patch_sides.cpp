@@ -147,7 +147,7 @@ std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& 
     const Instance& instance = scene.instances[patches.instance];
     const Mesh& mesh = scene.meshOf(instance);
     const SurfelOwners& owners = patches.owners;
-    const std::uint32_t sides = isTwoSided(scene.materialOf(instance)) ? 2 : 1;
+    const std::uint32_t sides = isTwoSided(scene, instance) ? 2 : 1;
     std::vector<std::uint32_t> result(std::size_t(owners.cells()) * sides);
     // Cells that no place lies in stay with the first surfel of their side.
     std::fill(result.begin() + owners.cells(), result.end(), patches.surfels().frontCount);
@@ -210,7 +210,7 @@ std::vector<std::uint32_t> splitCells(const Patches& patches, const Progress& pr
     const SurfelOwners& owners = patches.owners;
     if (owner.empty())
         return {};
-    const bool twoSided = isTwoSided(scene.materialOf(instance));
+    const bool twoSided = isTwoSided(scene, instance);
     using Parts = std::array<std::uint32_t, kParts>;
     std::map<std::uint32_t, Parts> found; // by index into `owner`
     std::mutex mutex;

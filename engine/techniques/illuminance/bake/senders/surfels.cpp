@@ -36,7 +36,7 @@ std::vector<double> litAreas(const Scene& scene) {
         for (std::size_t i = begin; i < end; ++i)
             if (sendsLight(scene, scene.instances[i]))
                 area[i] = worldArea(scene, scene.instances[i]) *
-                          (isTwoSided(scene.materialOf(scene.instances[i])) ? 2 : 1);
+                          (isTwoSided(scene, scene.instances[i]) ? 2 : 1);
     });
     return area;
 }
@@ -130,7 +130,7 @@ std::vector<double> meanDensities(const Scene& scene, std::span<const MeshDensit
 std::vector<bool> twoSidedMeshes(const Scene& scene) {
     std::vector<bool> both(scene.assets->meshes.size());
     for (const Instance& i : scene.instances)
-        if (sendsLight(scene, i) && isTwoSided(scene.materialOf(i)))
+        if (sendsLight(scene, i) && isTwoSided(scene, i))
             both[i.mesh] = true;
     return both;
 }
@@ -248,8 +248,7 @@ void appendInstance(const Scene& scene, std::uint32_t index, const MeshSurfels& 
         return local.areas.empty() ? local.area : local.areas[i];
     };
     // Another instance of the mesh may be two-sided where this one is not.
-    const std::size_t count =
-        isTwoSided(scene.materialOf(instance)) ? local.size() : local.frontCount;
+    const std::size_t count = isTwoSided(scene, instance) ? local.size() : local.frontCount;
     double sum = 0;
     for (std::size_t i = 0; i < count; ++i)
         sum += double(areaOf(i) * glm::length(instance.normalToWorld * local.normal[i]));
@@ -367,7 +366,7 @@ std::uint64_t expectedLampSurfels(const Scene& scene, std::uint32_t target) {
     std::uint64_t sum = 0;
     for (const Instance& i : scene.instances)
         if (isLamp(i))
-            sum += std::uint64_t(counts[i.mesh]) * (isTwoSided(scene.materialOf(i)) ? 2 : 1);
+            sum += std::uint64_t(counts[i.mesh]) * (isTwoSided(scene, i) ? 2 : 1);
     return sum;
 }
 
