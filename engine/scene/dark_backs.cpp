@@ -95,20 +95,13 @@ bool reachesBehind(const Scene& scene, const Instance& instance, const PlacedSur
     return false;
 }
 
-bool isSeenBehind(const Scene& scene, const PlacedSurface& placed) {
-    if (scene.cameras.empty())
-        return placed.isBehind(glm::dvec3(chooseCamera(scene, std::nullopt).eye));
-    return std::ranges::any_of(scene.cameras, [&](const Camera& camera) {
-        return placed.isBehind(glm::dvec3(camera.eye));
-    });
-}
-
 bool isBlack(const Sky& sky) {
     return std::ranges::all_of(skyCellRadiance(sky),
                                [](glm::vec3 radiance) { return radiance == glm::vec3(0); });
 }
 
-bool isLitBehind(const Scene& scene, const PlacedSurface& placed) {
+/// Whether the sky or a light shines behind the surface.
+bool isShoneOnBehind(const Scene& scene, const PlacedSurface& placed) {
     const bool room = placed.surface.isRoom();
     if (room && !isBlack(scene.sky))
         return true;
@@ -139,8 +132,16 @@ std::vector<PlacedSurface> findClosedSurfaces(const Scene& scene) {
     return placed;
 }
 
-bool isLitOrSeenBehind(const Scene& scene, const PlacedSurface& placed) {
-    if (isSeenBehind(scene, placed) || isLitBehind(scene, placed))
+bool isSeenBehind(const Scene& scene, const PlacedSurface& placed) {
+    if (scene.cameras.empty())
+        return placed.isBehind(glm::dvec3(chooseCamera(scene, std::nullopt).eye));
+    return std::ranges::any_of(scene.cameras, [&](const Camera& camera) {
+        return placed.isBehind(glm::dvec3(camera.eye));
+    });
+}
+
+bool isLitBehind(const Scene& scene, const PlacedSurface& placed) {
+    if (isShoneOnBehind(scene, placed))
         return true;
     std::vector<bool> bounding(scene.instances.size());
     for (const ShellTriangle t : placed.surface.shell)
@@ -160,7 +161,7 @@ void leaveOutDarkBacks(Scene& scene) {
     std::vector<char> dark(surfaces.size());
     parallelRanges(surfaces.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k)
-            dark[k] = isLitOrSeenBehind(scene, surfaces[k]) ? 0 : 1;
+            dark[k] = isSeenBehind(scene, surfaces[k]) || isLitBehind(scene, surfaces[k]) ? 0 : 1;
     });
     std::vector<double> behind(scene.instances.size()); // area that faces the dark
     for (std::size_t k = 0; k < surfaces.size(); ++k)

@@ -25,11 +25,13 @@ struct PlacedSurface {
 /// belong to none.
 std::vector<PlacedSurface> findClosedSurfaces(const Scene& scene);
 
-/// Whether anything behind a surface lights or sees its back: a camera (that of chooseCamera() in a
-/// scene without any), a light, emissive triangles, the middle of a dynamic object, the back itself
-/// where it is emissive; behind a room also the sky and the sun. Lights count even where they are
-/// off, but a black sky does not.
-bool isLitOrSeenBehind(const Scene& scene, const PlacedSurface& placed);
+/// Whether there is a camera behind a surface, or that of chooseCamera() in a scene without any.
+bool isSeenBehind(const Scene& scene, const PlacedSurface& placed);
+
+/// Whether anything behind a surface may light its back, or shows light there: a light, emissive
+/// triangles, the back itself where it is emissive, the middle of a dynamic object; behind a room
+/// also the sky and the sun. Lights count even where they are off, but a black sky does not.
+bool isLitBehind(const Scene& scene, const PlacedSurface& placed);
 
 /// Sets Instance::darkBacks of those two-sided static instances all of whose triangles belong to
 /// closed surfaces that are neither lit nor seen behind, and clears that of all others.

@@ -12,7 +12,10 @@ LightingReport CpuIlluminance::update(const LightingInput& input, const Progress
     const CacheFlags* seen =
         input.view ? &seenFrom(m_seen, *m_baked, *m_bake, *input.view) : nullptr;
     m_relighter.lightUnreadGrid(input.unread);
-    return reportOf(m_relighter.relight(input.scene, *input.trace, input.bounces, progress, seen));
+    LightingReport report =
+        reportOf(m_relighter.relight(input.scene, *input.trace, input.bounces, progress, seen));
+    report.lacks = m_leftOut.lackOf(*m_bake, *m_baked, input.scene);
+    return report;
 }
 
 std::shared_ptr<const IndirectField> CpuIlluminance::emittedField(const Scene& scene) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/lighting/lighting.h"
+#include "engine/techniques/illuminance/relight/left_out_space.h"
 #include "engine/techniques/illuminance/relight/relight.h"
 #include "engine/techniques/illuminance/relight/seen_caches.h"
 
@@ -30,6 +31,7 @@ private:
     std::shared_ptr<const Bake> m_bake;
     std::shared_ptr<const Scene> m_baked;
     SeenFrom m_seen;
+    LeftOutSpace m_leftOut;
 };
 
 } // namespace limn

@@ -21,7 +21,10 @@ DeviceIlluminance::create(gpu::Device& device, Viewport& viewport, std::shared_p
 LightingReport DeviceIlluminance::update(const LightingInput& input, const Progress& progress) {
     const Bake& bake = *m_relighter->gpu().bake();
     const CacheFlags* seen = input.view ? &seenFrom(m_seen, *m_baked, bake, *input.view) : nullptr;
-    return reportOf(m_relighter->relight(m_viewport, input.scene, input.bounces, progress, seen));
+    LightingReport report =
+        reportOf(m_relighter->relight(m_viewport, input.scene, input.bounces, progress, seen));
+    report.lacks = m_leftOut.lackOf(bake, *m_baked, input.scene);
+    return report;
 }
 
 std::shared_ptr<const IndirectField> DeviceIlluminance::emittedField(const Scene& scene) const {

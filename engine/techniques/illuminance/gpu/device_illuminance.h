@@ -4,6 +4,7 @@
 #include "engine/lighting/lighting.h"
 #include "engine/lighting/precomputed.h"
 #include "engine/techniques/illuminance/gpu/viewport_relighter.h"
+#include "engine/techniques/illuminance/relight/left_out_space.h"
 #include "engine/techniques/illuminance/relight/seen_caches.h"
 
 #include <memory>
@@ -38,6 +39,7 @@ private:
     std::unique_ptr<ViewportRelighter> m_relighter;
     std::shared_ptr<const Scene> m_baked;
     SeenFrom m_seen;
+    LeftOutSpace m_leftOut;
 };
 
 /// DeviceIlluminance of data of kIlluminanceTechnique. Fails as GpuRelighter::create().
