@@ -11,8 +11,7 @@ namespace limn {
 namespace babylon_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
-static constexpr std::array<std::string_view, 8> kSettings = {
-    "quality", "texels", "error", "paths", "quantity", "direct", "detail", "maxSize"};
+static constexpr std::array<std::string_view, 10> kSettings = {"quality", "texels", "error", "paths", "quantity", "direct", "quantize", "meshopt", "detail", "maxSize"};
 
 static ExportSettings ownSettings(ExportSettings settings) {
     settings.encoding = TextureEncoding::Ktx2Half;

@@ -16,6 +16,7 @@ static ExportSettings ownSettings(ExportSettings settings) {
     settings.encoding = TextureEncoding::Exr;
     settings.quantity = LightmapQuantity::Irradiance;
     settings.bands = 1;
+    settings.quantize = settings.meshopt = false;
     return settings;
 }
 

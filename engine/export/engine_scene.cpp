@@ -25,7 +25,9 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
         writtenLightmap(scene, settings, stemOf(name) + "-lightmap", progress);
     if (!map)
         return tl::make_unexpected(map.error());
-    GltfOptions options{.pages = &map->pages, .extras = {}};
+    GltfOptions options{.pages = &map->pages,
+                        .extras = {},
+                        .packing = {.quantize = settings.quantize, .meshopt = settings.meshopt}};
     options.extras["lightmap"] = lightmapJson(map->first, settings, map->files);
     if (map->error)
         options.extras["lightmap"]["error"] = errorJson(*map->error);

@@ -37,6 +37,7 @@ struct GltfScene {
     Json nodes = Json::array(), meshes = Json::array(), cameras = Json::array(),
          lights = Json::array();
     std::map<std::pair<std::uint32_t, Side>, Json> primitives; ///< without material and lightmap
+    std::map<std::uint32_t, glm::mat4> toObject; ///< of a mesh, from its positions as stored
 
     bool hasLightmap(std::uint32_t instance) const {
         return options.pages && instance < options.pages->instances.size() &&
@@ -85,13 +86,13 @@ const Json& GltfScene::primitive(std::uint32_t meshIndex, Side side) {
         attributes = front["attributes"];
     } else {
         const std::vector<glm::vec3> positions = pick(mesh.positions, source);
-        attributes["POSITION"] = buffer.addPositions(positions);
+        attributes["POSITION"] = buffer.addPositions(positions, toObject[meshIndex]);
         if (!mesh.uv0.empty())
-            attributes["TEXCOORD_0"] = buffer.add(pick(mesh.uv0, source));
+            attributes["TEXCOORD_0"] = buffer.addTexCoords(pick(mesh.uv0, source));
         if (!mesh.uv1.empty())
-            attributes["TEXCOORD_2"] = buffer.add(pick(mesh.uv1, source));
+            attributes["TEXCOORD_2"] = buffer.addTexCoords(pick(mesh.uv1, source));
         if (!mesh.colors.empty())
-            attributes["COLOR_0"] = buffer.add(pick(mesh.colors, source));
+            attributes["COLOR_0"] = buffer.addColors(pick(mesh.colors, source));
     }
     std::vector<glm::vec3> normals = pick(mesh.normals, source);
     std::vector<glm::vec4> tangents = pick(mesh.tangents, source);
@@ -101,9 +102,9 @@ const Json& GltfScene::primitive(std::uint32_t meshIndex, Side side) {
         for (glm::vec4& t : tangents) // keeps the bitangent
             t.w = -t.w;
     }
-    attributes["NORMAL"] = buffer.add(normals);
+    attributes["NORMAL"] = buffer.addNormals(normals);
     if (!tangents.empty())
-        attributes["TANGENT"] = buffer.add(tangents);
+        attributes["TANGENT"] = buffer.addTangents(tangents);
     const std::vector<std::uint32_t>& indices =
         split ? in.layout.meshes[meshIndex].indices : mesh.indices;
     json["indices"] = buffer.addIndices(side == Side::Back ? turnedRound(indices) : indices,
@@ -114,7 +115,8 @@ const Json& GltfScene::primitive(std::uint32_t meshIndex, Side side) {
 /// One side of an instance, whatever the pages of its charts.
 Json GltfScene::lightmapPrimitive(std::uint32_t instance, bool back) {
     Json json = primitive(in.scene.instances[instance].mesh, back ? Side::Back : Side::Front);
-    json["attributes"]["TEXCOORD_1"] = buffer.add(options.pages->instances[instance][back].uv);
+    json["attributes"]["TEXCOORD_1"] =
+        buffer.addTexCoords(options.pages->instances[instance][back].uv);
     if (!json["attributes"].contains("TEXCOORD_0")) // sets of coordinates are numbered without gaps
         json["attributes"]["TEXCOORD_0"] = json["attributes"]["TEXCOORD_1"];
     return json;
@@ -144,8 +146,9 @@ void GltfScene::addNode(std::uint32_t i, Json primitiveList) {
     if (object != in.document.objects.end())
         node["name"] = objectName(object->second);
     node["mesh"] = meshes.size();
-    if (instance.toWorld != glm::mat4(1))
-        node["matrix"] = matrixJson(instance.toWorld);
+    if (const glm::mat4 toWorld = instance.toWorld * toObject[instance.mesh];
+        toWorld != glm::mat4(1))
+        node["matrix"] = matrixJson(toWorld);
     meshes.push_back(
         {{"name", in.scene.meshOf(instance).name}, {"primitives", std::move(primitiveList)}});
     nodes.push_back(std::move(node));
@@ -240,6 +243,18 @@ Json namedImages(const std::vector<ExportFile>& images) {
     return list;
 }
 
+/// Names the extensions of how geometry is stored, without which no consumer can read it.
+void addPackingExtensions(GltfScene& gltf, Json& json) {
+    std::vector<std::string> required;
+    if (gltf.buffer.unpackedBytes > 0)
+        required.emplace_back("EXT_meshopt_compression");
+    if (gltf.options.packing.quantize)
+        required.emplace_back("KHR_mesh_quantization");
+    gltf.materials.extensions.insert(required.begin(), required.end());
+    if (!required.empty())
+        json["extensionsRequired"] = std::move(required);
+}
+
 /// `bufferName` is empty where the buffer is part of the file.
 Json documentJson(GltfScene& gltf, const std::string& bufferName, Json imageList) {
     const glm::dvec3 origin = gltf.in.document.origin;
@@ -259,6 +274,7 @@ Json documentJson(GltfScene& gltf, const std::string& bufferName, Json imageList
         used.insert("KHR_lights_punctual");
         json["extensions"]["KHR_lights_punctual"]["lights"] = std::move(gltf.lights);
     }
+    addPackingExtensions(gltf, json);
     if (!used.empty())
         json["extensionsUsed"] = std::vector<std::string>(used.begin(), used.end());
     json["scene"] = 0;
@@ -274,6 +290,11 @@ Json documentJson(GltfScene& gltf, const std::string& bufferName, Json imageList
     if (!bufferName.empty())
         buffer["uri"] = uriOf(bufferName);
     json["buffers"] = Json::array({std::move(buffer)});
+    if (gltf.buffer.unpackedBytes > 0) {
+        Json unpacked = {{"byteLength", gltf.buffer.unpackedBytes}};
+        unpacked["extensions"]["EXT_meshopt_compression"]["fallback"] = true;
+        json["buffers"].push_back(std::move(unpacked));
+    }
     json["bufferViews"] = std::move(gltf.buffer.views);
     json["accessors"] = std::move(gltf.buffer.accessors);
     return json;
@@ -312,7 +333,7 @@ Result<std::vector<ExportFile>> gltfFiles(const ExportScene& scene, const GltfOp
                                           const std::string& name, const Progress& progress) {
     if (scene.scene.instances.empty())
         return fail("the scene has no surfaces");
-    GltfScene gltf{scene, options};
+    GltfScene gltf{scene, options, {.packing = options.packing}};
     for (std::uint32_t i = 0; i < scene.scene.instances.size(); ++i) {
         if (progress.cancelled())
             return fail("cancelled");

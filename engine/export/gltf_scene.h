@@ -4,6 +4,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
 #include "engine/export/export_format.h"
+#include "engine/export/gltf_buffer.h"
 #include "engine/json/json.h"
 #include "engine/lightmap/lightmap_pages.h"
 
@@ -18,6 +19,7 @@ struct GltfOptions {
     /// and two-sided surfaces stay as they are.
     const LightmapPages* pages = nullptr;
     Json extras; ///< asset.extras.limn: what the light beside the file means
+    GltfPacking packing = {};
 };
 
 /// The scene as glTF 2.0: `name`, a buffer, and its textures as PNG files, or all of it in `name`

@@ -19,6 +19,7 @@ static ExportSettings ownSettings(ExportSettings settings) {
     settings.compress = false; // its loader reads the file itself
     settings.quantity = LightmapQuantity::IrradianceOverPi;
     settings.bands = 1;
+    settings.quantize = settings.meshopt = false;
     return settings;
 }
 

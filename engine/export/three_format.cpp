@@ -11,9 +11,7 @@ namespace limn {
 namespace three_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
-static constexpr std::array<std::string_view, 10> kSettings = {
-    "quality",  "texels", "error", "paths",  "encoding",
-    "compress", "direct", "bands", "detail", "maxSize"};
+static constexpr std::array<std::string_view, 12> kSettings = {"quality", "texels", "error", "paths", "encoding", "compress", "direct", "bands", "quantize", "meshopt", "detail", "maxSize"};
 
 static ExportSettings ownSettings(ExportSettings settings) {
     settings.quantity = LightmapQuantity::Irradiance;

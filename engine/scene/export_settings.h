@@ -45,6 +45,8 @@ struct ExportSettings {
     std::uint32_t paths = 8;
     TextureEncoding encoding = TextureEncoding::Exr;
     bool compress = false;
+    bool quantize = false;
+    bool meshopt = false;
     LightmapQuantity quantity = LightmapQuantity::Irradiance;
     bool direct = false;
     std::uint32_t bands = 1;

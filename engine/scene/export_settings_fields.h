@@ -91,6 +91,22 @@ void visitExportSettings(S& s, const Visit& visit) {
                   .invalidates = Invalidates::Light,
                   .applies = missingFor(s, "compress").empty()},
           s.compress);
+    visit(Setting{.key = "quantize",
+                  .flag = "--quantize",
+                  .label = "Quantised geometry",
+                  .help = "Store vertices as integers, by KHR_mesh_quantization",
+                  .tooltip = "Stores vertices as integers of 8 and 16 bits, about half the bytes. "
+                             "The consumer must support KHR_mesh_quantization",
+                  .invalidates = Invalidates::Light},
+          s.quantize);
+    visit(Setting{.key = "meshopt",
+                  .flag = "--meshopt",
+                  .label = "Compressed geometry",
+                  .help = "Compress geometry, by EXT_meshopt_compression",
+                  .tooltip = "Compresses geometry without loss. The consumer must support "
+                             "EXT_meshopt_compression",
+                  .invalidates = Invalidates::Light},
+          s.meshopt);
     visit(Setting{.key = "quantity",
                   .flag = "--quantity",
                   .label = "Texels hold",

@@ -8,6 +8,7 @@
 // Surfaces with a lightmap keep their own bounced light, and the grid passes them by. The lights of the glTF file are live.
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { EXRLoader } from 'three/addons/loaders/EXRLoader.js';
+import { MeshoptDecoder } from 'three/addons/libs/meshopt_decoder.module.js';
 
 async function lightMap(url, renderer) {
     if (!url.endsWith('.exr')) {
@@ -63,7 +64,7 @@ function lit(material, map, bands) {
 
 /** The scene of a glTF file, with the textures of its lightmap, and the grid, which is null where there is none. */
 export async function loadLimn(url, renderer) {
-    const gltf = await new GLTFLoader().loadAsync(url);
+    const gltf = await new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).loadAsync(url);
     const limn = gltf.asset.extras.limn;
     const uris = limn.lightmap ? limn.lightmap.uris ?? [limn.lightmap.uri] : [];
     const lightMaps = await Promise.all(uris.map((uri) => lightMap(beside(uri, url), renderer)));

@@ -54,6 +54,10 @@ bool writeAll(const KnownLight& light, const std::string& folder) {
             ok = write(light, folder, *format, name + "-radiance",
                        {.quantity = LightmapQuantity::Radiance}) &&
                  ok;
+        if (name == "three" || name == "babylon")
+            ok = write(light, folder, *format, name + "-packed",
+                       {.quantize = true, .meshopt = true}) &&
+                 ok;
         if (name != "three")
             continue;
         for (const auto& [suffix, encoding, zstd] :
