@@ -13,6 +13,8 @@ namespace babylon_format {
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
 static constexpr std::array<std::string_view, 10> kSettings = {"quality", "texels", "error", "paths", "quantity", "direct", "quantize", "meshopt", "detail", "maxSize"};
 
+static constexpr std::uint32_t kReflections = 4;
+
 static ExportSettings ownSettings(ExportSettings settings) {
     settings.encoding = TextureEncoding::Ktx2Half;
     settings.compress = false; // its loader reads the file itself
@@ -23,19 +25,19 @@ static ExportSettings ownSettings(ExportSettings settings) {
 static Result<std::vector<ExportFile>> write(const ExportScene& scene,
                                              const ExportSettings& settings,
                                              const std::string& name, const Progress& progress) {
-    Json extras = Json::object();
+    LitSceneParts parts{.reflections = kReflections};
     if (!scene.field.grid.empty()) {
         const Sh3 mean = meanProbe(scene.field);
-        extras["probe"] = {
+        parts.extras["probe"] = {
             {"leftHanded", shJson(babylonHarmonics(mean, BabylonWorld::LeftHanded))},
             {"rightHanded", shJson(babylonHarmonics(mean, BabylonWorld::RightHanded))}};
     }
-    return litScene(scene, ownSettings(settings), std::move(extras),
+    return litScene(scene, ownSettings(settings), std::move(parts),
                     {"-babylon.js", {"ktx2.js", "babylon.js"}}, name, progress);
 }
 
 static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
-    return litSceneForecast(scene, ownSettings(settings));
+    return litSceneForecast(scene, ownSettings(settings), kReflections);
 }
 
 } // namespace babylon_format

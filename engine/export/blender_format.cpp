@@ -23,8 +23,8 @@ static ExportSettings ownSettings(ExportSettings settings) {
 static Result<std::vector<ExportFile>> write(const ExportScene& scene,
                                              const ExportSettings& settings,
                                              const std::string& name, const Progress& progress) {
-    return litScene(scene, ownSettings(settings), Json::object(), {"-blender.py", {"blender.py"}},
-                    name, progress);
+    return litScene(scene, ownSettings(settings), {.panoramas = TextureEncoding::Exr},
+                    {"-blender.py", {"blender.py"}}, name, progress);
 }
 
 static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {

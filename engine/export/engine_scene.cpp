@@ -5,6 +5,7 @@
 #include "engine/export/exported_lightmap.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/lightmap_file.h"
+#include "engine/export/surroundings.h"
 
 #include <algorithm>
 #include <iterator>
@@ -19,39 +20,46 @@ static void replaceAll(std::string& text, std::string_view what, std::string_vie
 }
 
 Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
-                                         Json extras, const std::string& name,
+                                         LitSceneParts parts, const std::string& name,
                                          const Progress& progress) {
-    Result<WrittenLightmap> map =
-        writtenLightmap(scene, settings, stemOf(name) + "-lightmap", progress);
+    const std::string stem = stemOf(name);
+    Result<WrittenLightmap> map = writtenLightmap(scene, settings, stem + "-lightmap", progress);
     if (!map)
         return tl::make_unexpected(map.error());
+    Result<Surroundings> around =
+        surroundings(scene, parts.reflections, parts.panoramas, stem, progress);
+    if (!around)
+        return tl::make_unexpected(around.error());
     GltfOptions options{.pages = &map->pages,
-                        .extras = {},
-                        .packing = {.quantize = settings.quantize, .meshopt = settings.meshopt}};
+                        .extras = std::move(around->json),
+                        .packing = {.quantize = settings.quantize, .meshopt = settings.meshopt},
+                        .reflections = std::move(around->ofInstance)};
     options.extras["lightmap"] = lightmapJson(map->first, settings, map->files);
     if (map->error)
         options.extras["lightmap"]["error"] = errorJson(*map->error);
-    if (!extras.isNull())
-        options.extras.update(extras);
+    options.extras.update(parts.extras);
     Result<std::vector<ExportFile>> files = gltfFiles(scene, options, name, progress);
-    if (files)
+    if (files) {
         std::ranges::move(map->files, std::back_inserter(*files));
+        std::ranges::move(around->files, std::back_inserter(*files));
+    }
     return files;
 }
 
 Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportSettings& settings,
-                                         Json extras, const Loader& loader, const std::string& name,
-                                         const Progress& progress) {
-    auto files = litScene(scene, settings, std::move(extras), name, progress);
+                                         LitSceneParts parts, const Loader& loader,
+                                         const std::string& name, const Progress& progress) {
+    auto files = litScene(scene, settings, std::move(parts), name, progress);
     const std::string stem = stemOf(name);
     if (files)
         files->push_back(loaderFile(stem + loader.suffix, stem, loader.resources));
     return files;
 }
 
-ExportForecast litSceneForecast(const ExportScene& scene, const ExportSettings& settings) {
+ExportForecast litSceneForecast(const ExportScene& scene, const ExportSettings& settings,
+                                std::uint32_t reflections) {
     ExportForecast f = forecastLightmapOf(scene, settings, PageCount::Any);
-    f.bytes += gltfBytes(scene);
+    f.bytes += gltfBytes(scene) + surroundingsBytes(scene, reflections);
     return f;
 }
 

@@ -4,6 +4,7 @@
 #include "engine/export/engine_scene.h"
 
 #include <array>
+#include <utility>
 
 namespace limn {
 namespace gltf_format {
@@ -14,7 +15,14 @@ static constexpr std::array<std::string_view, 14> kSettings = {"quality", "texel
 static Result<std::vector<ExportFile>> write(const ExportScene& scene,
                                              const ExportSettings& settings,
                                              const std::string& name, const Progress& progress) {
-    return litScene(scene, settings, {}, name, progress);
+    LitSceneParts parts;
+    if (settings.encoding == TextureEncoding::Exr)
+        parts.panoramas = TextureEncoding::Exr;
+    return litScene(scene, settings, std::move(parts), name, progress);
+}
+
+static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
+    return litSceneForecast(scene, settings);
 }
 
 } // namespace gltf_format
@@ -28,6 +36,6 @@ constinit const ExportFormat kGltfFormat = {
     .extensions = gltf_format::kExtensions,
     .settings = gltf_format::kSettings,
     .write = gltf_format::write,
-    .forecast = litSceneForecast};
+    .forecast = gltf_format::forecast};
 
 } // namespace limn

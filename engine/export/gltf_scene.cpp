@@ -149,6 +149,8 @@ void GltfScene::addNode(std::uint32_t i, Json primitiveList) {
     if (const glm::mat4 toWorld = instance.toWorld * toObject[instance.mesh];
         toWorld != glm::mat4(1))
         node["matrix"] = matrixJson(toWorld);
+    if (i < options.reflections.size() && options.reflections[i] > 0)
+        node["extras"]["limn"]["reflection"] = options.reflections[i];
     meshes.push_back(
         {{"name", in.scene.meshOf(instance).name}, {"primitives", std::move(primitiveList)}});
     nodes.push_back(std::move(node));

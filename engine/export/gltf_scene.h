@@ -20,6 +20,8 @@ struct GltfOptions {
     const LightmapPages* pages = nullptr;
     Json extras; ///< asset.extras.limn: what the light beside the file means
     GltfPacking packing = {};
+    /// extras.limn.reflection of each instance's node, unless it is 0. Empty: there is none.
+    std::vector<std::uint32_t> reflections = {};
 };
 
 /// The scene as glTF 2.0: `name`, a buffer, and its textures as PNG files, or all of it in `name`

@@ -14,6 +14,8 @@ static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
 static constexpr std::array<std::string_view, 7> kSettings = {
     "quality", "texels", "error", "paths", "direct", "detail", "maxSize"};
 
+static constexpr std::uint32_t kReflections = 4;
+
 static ExportSettings ownSettings(ExportSettings settings) {
     settings.encoding = TextureEncoding::Ktx2Half;
     settings.compress = false; // its loader reads the file itself
@@ -26,15 +28,15 @@ static ExportSettings ownSettings(ExportSettings settings) {
 static Result<std::vector<ExportFile>> write(const ExportScene& scene,
                                              const ExportSettings& settings,
                                              const std::string& name, const Progress& progress) {
-    Json extras = Json::object();
+    LitSceneParts parts{.reflections = kReflections};
     if (!scene.field.grid.empty())
-        extras["probe"]["ambientSH"] = shJson(playcanvasAmbient(meanProbe(scene.field)));
-    return litScene(scene, ownSettings(settings), std::move(extras),
+        parts.extras["probe"]["ambientSH"] = shJson(playcanvasAmbient(meanProbe(scene.field)));
+    return litScene(scene, ownSettings(settings), std::move(parts),
                     {"-playcanvas.js", {"ktx2.js", "playcanvas.js"}}, name, progress);
 }
 
 static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
-    return litSceneForecast(scene, ownSettings(settings));
+    return litSceneForecast(scene, ownSettings(settings), kReflections);
 }
 
 } // namespace playcanvas_format

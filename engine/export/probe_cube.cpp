@@ -4,6 +4,8 @@
 #include "engine/core/parallel.h"
 #include "engine/field/sample_field.h"
 #include "engine/math/sampling.h"
+#include "engine/scene/surface/dielectric.h"
+#include "engine/scene/surface/specular.h"
 #include "engine/shading/direct_light.h"
 
 #include <algorithm>
@@ -35,18 +37,11 @@ float coordinate(std::uint32_t size, std::size_t index) {
     return 2 * (float(index) + 0.5f) / float(size) - 1;
 }
 
-glm::vec3 radianceAlong(const ExportScene& in, const Ray& ray) {
-    const Hit hit = in.trace.closestHit(ray);
-    if (!hit)
-        return skyRadiance(in.scene.sky, ray.direction);
-    const std::optional<SurfacePoint> p = surfacePoint(in.trace, hit);
-    if (!p)
-        return glm::vec3(0);
-    std::uint64_t rays = 0;
-    const glm::vec3 e = sampleIrradiance({in.field, in.layout, in.scene, hit.instance, hit.triangle,
-                                          hit.u, hit.v, p->position, p->normal, !hit.frontFace}) +
-                        directIrradiance(in.trace, *p, rays);
-    return p->emission + p->albedo * e / std::numbers::pi_v<float>;
+/// What a metal reflects beyond a dielectric; 0 for one of these.
+glm::vec3 metalColor(const Scene& scene, const Hit& hit) {
+    const Instance& instance = scene.instances[hit.instance];
+    const Gloss gloss = surfaceGloss(scene, instance, hit.triangle, hit.u, hit.v);
+    return glm::max(gloss.F0 - dielectricF0(scene.materialOf(instance).ior), glm::vec3(0));
 }
 
 /// Whether surfaces around the point show their backs, as they do inside of solid objects.
@@ -99,16 +94,30 @@ glm::vec3 probePosition(const ExportScene& scene) {
     return open != centres.end() ? *open : middle;
 }
 
+glm::vec3 radianceSeen(const ExportScene& scene, glm::vec3 p, glm::vec3 direction) {
+    const Hit hit = scene.trace.closestHit({.origin = p, .direction = direction});
+    if (!hit)
+        return skyRadiance(scene.scene.sky, direction);
+    const std::optional<SurfacePoint> s = surfacePoint(scene.trace, hit);
+    if (!s)
+        return glm::vec3(0);
+    std::uint64_t rays = 0;
+    const glm::vec3 e =
+        sampleIrradiance({scene.field, scene.layout, scene.scene, hit.instance, hit.triangle, hit.u,
+                          hit.v, s->position, s->normal, !hit.frontFace}) +
+        directIrradiance(scene.trace, *s, rays);
+    return s->emission + (s->albedo + metalColor(scene.scene, hit)) * e / std::numbers::pi_v<float>;
+}
+
 CubeMap cubeSeenFrom(const ExportScene& scene, glm::vec3 p, std::uint32_t size,
                      const Progress& progress) {
     CubeMap cube{.size = size, .rgb = {}};
     cube.rgb.resize(cube.texels());
-    parallelRanges(
-        cube.rgb.size(), 64, progress, "reflections", [&](std::size_t begin, std::size_t end) {
-            for (std::size_t t = begin; t < end; ++t)
-                cube.rgb[t] =
-                    radianceAlong(scene, {.origin = p, .direction = cubeDirection(size, t)});
-        });
+    parallelRanges(cube.rgb.size(), 64, progress, "reflections",
+                   [&](std::size_t begin, std::size_t end) {
+                       for (std::size_t t = begin; t < end; ++t)
+                           cube.rgb[t] = radianceSeen(scene, p, cubeDirection(size, t));
+                   });
     return cube;
 }
 

@@ -31,8 +31,12 @@ std::size_t cubeTexel(std::uint32_t size, glm::vec3 direction);
 /// Precondition: the field has a grid.
 glm::vec3 probePosition(const ExportScene& scene);
 
-/// What is seen from `p`: surfaces send what they emit and, as Lambertian ones, their bounced and
-/// direct light; behind them is the sky. Incomplete when cancelled.
+/// What is seen from `p` in a direction (unit): surfaces send what they emit and, as Lambertian
+/// ones, their bounced and direct light, metals with the colour that they mirror; behind them is
+/// the sky. Black backs are black.
+glm::vec3 radianceSeen(const ExportScene& scene, glm::vec3 p, glm::vec3 direction);
+
+/// The same in all directions. Incomplete when cancelled.
 CubeMap cubeSeenFrom(const ExportScene& scene, glm::vec3 p, std::uint32_t size,
                      const Progress& progress);
 

@@ -6,12 +6,15 @@
 #include "engine/export/grid_texture.h"
 
 #include <array>
+#include <utility>
 
 namespace limn {
 namespace three_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
 static constexpr std::array<std::string_view, 12> kSettings = {"quality", "texels", "error", "paths", "encoding", "compress", "direct", "bands", "quantize", "meshopt", "detail", "maxSize"};
+
+static constexpr std::uint32_t kReflections = 4;
 
 static ExportSettings ownSettings(ExportSettings settings) {
     settings.quantity = LightmapQuantity::Irradiance;
@@ -30,11 +33,11 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene,
                     "shared exponents");
     const std::string stem = stemOf(name);
     const bool hasGrid = !scene.field.grid.empty();
-    Json extras = Json::object();
+    LitSceneParts parts{.reflections = kReflections};
     if (hasGrid)
-        extras["grid"]["uri"] = uriOf(stem + "-grid.json");
+        parts.extras["grid"]["uri"] = uriOf(stem + "-grid.json");
     Result<std::vector<ExportFile>> files =
-        litScene(scene, ownSettings(settings), extras, name, progress);
+        litScene(scene, ownSettings(settings), std::move(parts), name, progress);
     if (!files)
         return files;
     if (hasGrid) {
@@ -45,12 +48,13 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene,
         files->push_back({stem + "-grid.json", gridJson(scene, textureName).dump(1) + "\n"});
         files->push_back({textureName, std::move(*texture)});
     }
-    files->push_back(loaderFile(stem + "-three.js", stem, {"three-grid.js", "three.js"}));
+    files->push_back(
+        loaderFile(stem + "-three.js", stem, {"three-grid.js", "ktx2.js", "three.js"}));
     return files;
 }
 
 static ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
-    ExportForecast f = litSceneForecast(scene, ownSettings(settings));
+    ExportForecast f = litSceneForecast(scene, ownSettings(settings), kReflections);
     if (scene.field.cells() > 0)
         f.bytes += gridKtx2Bytes(scene.field);
     return f;
