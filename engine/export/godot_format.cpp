@@ -7,6 +7,8 @@
 #include "engine/export/gltf_scene.h"
 #include "engine/export/godot_probes.h"
 #include "engine/export/lightmap_image.h"
+#include "engine/export/panorama.h"
+#include "engine/export/reflection_places.h"
 #include "engine/math/packing.h"
 
 #include <algorithm>
@@ -24,6 +26,7 @@ namespace godot_format {
 namespace {
 
 constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
+constexpr std::uint32_t kRoomWidth = 256; ///< of what metal reflects [pixels]
 constexpr std::array<std::string_view, 6> kSettings = {"quality", "texels", "bands",
                                                        "direct",  "detail", "maxSize"};
 
@@ -104,20 +107,89 @@ void putProbes(std::string& out, const GodotProbes& probes) {
     out += "\n}\n";
 }
 
+/// Shows the sky, and lets what metal reflects be the room. The Compatibility renderer takes what a
+/// sky's shader returns for sRGB and makes it linear by a polynomial, of which this finds the root
+/// by Newton's method.
+constexpr const char* kSkyShader = R"(shader_type sky;
+uniform sampler2D panorama : filter_linear, repeat_enable, hint_default_black;
+uniform sampler2D room : filter_linear, repeat_enable;
+void sky() {
+	vec3 c = AT_CUBEMAP_PASS ? texture(room, SKY_COORDS).rgb : texture(panorama, SKY_COORDS).rgb;
+#ifdef RENDERER_COMPATIBILITY
+#if CURRENT_RENDERER == RENDERER_COMPATIBILITY
+	vec3 x = 1.055 * pow(c, vec3(0.41667));
+	for (int k = 0; k < 4; ++k)
+		x -= (x * (x * (x * 0.305306011 + 0.682171111) + 0.012522878) - c) / (x * (x * 0.915918033 + 1.364342222) + 0.012522878);
+	c = x;
+#endif
+#endif
+	COLOR = c;
+}
+)";
+
+/// An image in half floats.
+std::string imageResource(const std::string& id, const std::string& texels, std::uint32_t width,
+                          std::uint32_t height) {
+    return fmt::format("[sub_resource type=\"Image\" id=\"{}\"]\ndata = {{\n\"data\": "
+                       "PackedByteArray(\"{}\"),\n\"format\": \"RGBAHalf\",\n\"height\": {},\n"
+                       "\"mipmaps\": false,\n\"width\": {}\n}}\n\n",
+                       id, base64(texels), height, width);
+}
+
+/// The texels as Godot wants them: its panoramas begin where ours have their first quarter.
+std::string panoramaTexels(const ImageF& image) {
+    std::string texels;
+    for (std::size_t pixel = 0; pixel < image.rgb.size(); ++pixel) {
+        const std::size_t row = pixel / image.width;
+        const std::size_t column = (pixel + image.width / 4) % image.width;
+        for (int c = 0; c < 3; ++c)
+            putHalf(texels, image.rgb[row * image.width + column][c]);
+        putHalf(texels, 1);
+    }
+    return texels;
+}
+
+std::string textureResource(const std::string& id, const ImageF& image) {
+    return imageResource(id + "Image", panoramaTexels(image), image.width, image.height) +
+           fmt::format("[sub_resource type=\"ImageTexture\" id=\"{0}\"]\nimage = "
+                       "SubResource(\"{0}Image\")\n\n",
+                       id);
+}
+
+/// An Environment that shows the sky and what metal reflects of the room, and lights nothing.
+std::string environmentResource(const ImageF& sky, const ImageF& room) {
+    const bool hasSky = !sky.rgb.empty();
+    return (hasSky ? textureResource("Sky", sky) : "") + textureResource("Room", room) +
+           "[sub_resource type=\"Shader\" id=\"SkyShader\"]\ncode = \"" + kSkyShader +
+           "\"\n\n[sub_resource type=\"ShaderMaterial\" id=\"SkyMaterial\"]\n"
+           "shader = SubResource(\"SkyShader\")\n" +
+           (hasSky ? "shader_parameter/panorama = SubResource(\"Sky\")\n" : "") +
+           "shader_parameter/room = SubResource(\"Room\")\n\n"
+           "[sub_resource type=\"Sky\" id=\"Surroundings\"]\n"
+           "sky_material = SubResource(\"SkyMaterial\")\n\n"
+           "[sub_resource type=\"Environment\" id=\"Environment\"]\n" +
+           fmt::format("background_mode = {}\n", hasSky ? 2 : 1) +
+           "sky = SubResource(\"Surroundings\")\nambient_light_source = 1\n"
+           "reflected_light_source = 2\n\n";
+}
+
 /// A LightmapGIData as Godot's text resource, format 4, which Godot reads from version 4.3 on.
-std::string lightmapData(const ExportScene& scene, const LightmapImage& image) {
-    std::string out = fmt::format(
-        "[gd_resource type=\"LightmapGIData\" load_steps={} format=4]\n\n", image.layers + 2);
+std::string lightmapData(const ExportScene& scene, const LightmapImage& image, bool direct,
+                         const Progress& progress) {
+    const ImageF sky = skyPanorama(scene.scene.sky);
+    const glm::vec3 middle = reflectionPlaces(scene, 1).places.front();
+    const ImageF room = panoramaSeenFrom(scene, middle, kRoomWidth, kRoomWidth / 2, progress);
+    std::string out =
+        fmt::format("[gd_resource type=\"LightmapGIData\" load_steps={} format=4]\n\n",
+                    image.layers + (sky.rgb.empty() ? 8 : 10));
     std::string images;
     std::size_t number = 0;
     for (const std::string& layer : layersOf(image)) {
-        out += fmt::format("[sub_resource type=\"Image\" id=\"Image_{}\"]\ndata = {{\n\"data\": "
-                           "PackedByteArray(\"{}\"),\n\"format\": \"RGBAHalf\",\n\"height\": {},\n"
-                           "\"mipmaps\": false,\n\"width\": {}\n}}\n\n",
-                           number, base64(layer), image.height, image.width);
+        out += imageResource(fmt::format("Image_{}", number), layer, image.width, image.height);
         images += fmt::format("{}SubResource(\"Image_{}\")", number > 0 ? ", " : "", number);
         ++number;
     }
+    out += environmentResource(sky, room);
     out += fmt::format("[sub_resource type=\"Texture2DArray\" id=\"Lightmap\"]\n_images = "
                        "Array[Image]([{}])\n\n[resource]\n",
                        images);
@@ -128,6 +200,8 @@ std::string lightmapData(const ExportScene& scene, const LightmapImage& image) {
         putProbes(out, godotProbes(scene.field, glm::vec3(scene.document.origin)));
     if (image.layers == 4)
         out += "_uses_packed_directional = true\n";
+    out += fmt::format(
+        "metadata/direct = {}\nmetadata/environment = SubResource(\"Environment\")\n", direct);
     return out;
 }
 
@@ -142,7 +216,8 @@ Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSett
     if (!files)
         return files;
     const std::string stem = stemOf(name);
-    files->push_back({stem + ".tres", lightmapData(scene, map->images.front())});
+    files->push_back(
+        {stem + ".tres", lightmapData(scene, map->images.front(), settings.direct, progress)});
     files->push_back(loaderFile(stem + "-godot.gd", stem, {"godot.gd"}));
     return files;
 }

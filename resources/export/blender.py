@@ -4,8 +4,8 @@
 #     blender --python ROOM-blender.py
 #
 # or in the text editor, beside the exported files. The camera sees albedo / pi times the irradiance that the lightmap holds, on top of
-# what Blender's lamps do. The lightmap has all bounces and the light of emissive surfaces and of the sky, so these light nothing here.
-# Lamps are left out if the lightmap includes their light.
+# what Blender's lamps do, and so do reflections. The lightmap has all bounces and the light of emissive surfaces and of the sky, so
+# these light nothing here; the sky shows behind the scene. Lamps are left out if the lightmap includes their light.
 import json
 import math
 import os
@@ -40,6 +40,7 @@ def emission_of(material, image, uv_map):
     """A copy of the material that also sends albedo / pi * texel to the camera."""
     copy = material.copy()
     copy.use_nodes = True
+    copy.cycles.sample_as_light = False
     tree = copy.node_tree
     output = next(n for n in tree.nodes if n.type == 'OUTPUT_MATERIAL')
     surface = next((n for n in tree.nodes if n.type == 'BSDF_PRINCIPLED'), None)
@@ -60,9 +61,14 @@ def emission_of(material, image, uv_map):
     if surface:
         connect(tree, surface.inputs['Base Color'], product.inputs[2])
 
-    camera_ray = tree.nodes.new('ShaderNodeLightPath').outputs['Is Camera Ray']
+    path = tree.nodes.new('ShaderNodeLightPath')
+    seen = tree.nodes.new('ShaderNodeMath')  # 1 for rays of the camera and reflected ones
+    seen.operation = 'MAXIMUM'
+    tree.links.new(path.outputs['Is Camera Ray'], seen.inputs[0])
+    tree.links.new(path.outputs['Is Glossy Ray'], seen.inputs[1])
+    seen = seen.outputs[0]
     emission = tree.nodes.new('ShaderNodeEmission')
-    strength = times(tree, camera_ray, 1 / math.pi)
+    strength = times(tree, seen, 1 / math.pi)
     if surface:  # metals have no diffuse albedo
         dielectric = tree.nodes.new('ShaderNodeMath')
         dielectric.operation = 'SUBTRACT'
@@ -78,8 +84,12 @@ def emission_of(material, image, uv_map):
     shown = emission.outputs[0]
     if surface:
         strength = surface.inputs['Emission Strength']
-        if not strength.is_linked:
-            tree.links.new(times(tree, camera_ray, strength.default_value), strength)
+        if not strength.is_linked:  # seen by the camera and in mirrors alone, since what is rough would find it too seldom
+            sharp = tree.nodes.new('ShaderNodeMath')
+            sharp.operation = 'MAXIMUM'
+            tree.links.new(path.outputs['Is Camera Ray'], sharp.inputs[0])
+            tree.links.new(path.outputs['Is Singular Ray'], sharp.inputs[1])
+            tree.links.new(times(tree, sharp.outputs[0], strength.default_value), strength)
         add = tree.nodes.new('ShaderNodeAddShader')
         tree.links.new(shown, add.inputs[0])
         tree.links.new(surface.outputs[0], add.inputs[1])
@@ -113,23 +123,67 @@ def linear_image(path):
     return image
 
 
+def set_strength(thing, lights):
+    """Gives a lamp what glTF says: importers of Blender take photometric units for others. Lamps of one name are in the file's order."""
+    name = thing.data.name
+    while name not in lights and '.' in name:
+        name = name.rpartition('.')[0]
+    if not lights.get(name):
+        return
+    light = lights[name].pop(0)
+    strength = light.get('intensity', 1)
+    thing.data.energy = strength if light['type'] == 'directional' else 4 * math.pi * strength
+    if light['type'] == 'directional':
+        thing.data.angle = 0
+    else:
+        thing.data.shadow_soft_size = 0
+
+
+def show_sky(scene, image):
+    """A world that the camera and reflections see and that lights nothing. Without an image it is black."""
+    if not scene.world:
+        scene.world = bpy.data.worlds.new('Limn')
+    world = scene.world
+    world.color = (0, 0, 0)
+    world.use_nodes = image is not None
+    if not image:
+        return
+    tree = world.node_tree
+    tree.nodes.clear()
+    texture = tree.nodes.new('ShaderNodeTexEnvironment')
+    texture.image = image
+    background = tree.nodes.new('ShaderNodeBackground')
+    tree.links.new(texture.outputs[0], background.inputs[0])
+    tree.links.new(background.outputs[0], tree.nodes.new('ShaderNodeOutputWorld').inputs[0])
+    world.cycles_visibility.diffuse = False
+    world.cycles_visibility.scatter = False
+
+
 def show(path):
     """Imports the glTF file and wires its lightmap; returns the objects that have one."""
     with open(path, encoding='utf-8') as file:
-        limn = json.load(file)['asset']['extras']['limn']
+        gltf = json.load(file)
+    limn = gltf['asset']['extras']['limn']
+    beside = lambda uri: os.path.join(os.path.dirname(path), urllib.parse.unquote(uri))
+    lights = {}
+    for light in gltf.get('extensions', {}).get('KHR_lights_punctual', {}).get('lights', []):
+        lights.setdefault(light.get('name', ''), []).append(light)
     before = set(bpy.data.objects)
     bpy.ops.import_scene.gltf(filepath=path)
     imported = [o for o in bpy.data.objects if o not in before]
+    scene = bpy.context.scene
+    show_sky(scene, linear_image(beside(limn['sky']['uri'])) if 'sky' in limn else None)
     lightmap = limn.get('lightmap')
     if not lightmap:
         return []
-    images = [linear_image(os.path.join(os.path.dirname(path), urllib.parse.unquote(uri)))
-              for uri in lightmap.get('uris') or [lightmap['uri']]]
+    images = [linear_image(beside(uri)) for uri in lightmap.get('uris') or [lightmap['uri']]]
     copies, lit, parted = {}, [], []
     for thing in imported:
         if thing.type == 'LIGHT' and lightmap['includesDirectLight']:
             bpy.data.objects.remove(thing)
             continue
+        if thing.type == 'LIGHT':
+            set_strength(thing, lights)
         if thing.type != 'MESH' or 'UVMap.001' not in thing.data.uv_layers:
             continue
         for slot in thing.material_slots:
@@ -141,12 +195,9 @@ def show(path):
             part_sides(thing.data)
             parted.append(thing.data)
         lit.append(thing)
-    scene = bpy.context.scene
     scene.view_settings.view_transform = 'Standard'
-    scene.cycles.max_bounces = 0
-    if scene.world:
-        scene.world.use_nodes = False
-        scene.world.color = (0, 0, 0)
+    scene.cycles.max_bounces = scene.cycles.glossy_bounces = scene.cycles.transmission_bounces = 1
+    scene.cycles.diffuse_bounces = 0  # the lightmap has these
     return lit
 
 

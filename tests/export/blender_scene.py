@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
-# blender -b -noaudio --python blender_scene.py -- STEM OUT.exr WIDTH HEIGHT [FROM]: shows an exported scene by its own script and renders,
-# with Cycles, the bounced light that surfaces reflect. FROM: JSON of eye, target and fov, in glTF's axes; else the file's first camera.
+# blender -b -noaudio --python blender_scene.py -- STEM OUT.exr WHOLE.exr WIDTH HEIGHT [FROM]: shows an exported scene by its own script and
+# renders, with Cycles, the whole picture with lamps and sky, and then the bounced light that surfaces reflect. FROM: JSON of eye, target
+# and fov, in glTF's axes; else the file's first camera.
 import importlib.util
 import json
 import math
@@ -9,23 +10,12 @@ import sys
 import bpy
 from mathutils import Vector
 
-stem, out, width, height, *rest = sys.argv[sys.argv.index('--') + 1:]
+stem, out, whole, width, height, *rest = sys.argv[sys.argv.index('--') + 1:]
 bpy.ops.wm.read_factory_settings(use_empty=True)
 spec = importlib.util.spec_from_file_location('exported', stem + '-blender.py')
 exported = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(exported)
 lit = exported.show(stem + '.gltf')
-for thing in bpy.data.objects:
-    if thing.type == 'LIGHT':
-        thing.hide_render = True
-for thing in lit:
-    for slot in thing.material_slots:  # only the lightmap: neither the material's own emission nor lamps
-        tree = slot.material.node_tree
-        for node in tree.nodes:
-            if node.type == 'ADD_SHADER':
-                for link in list(node.inputs[1].links):
-                    tree.links.remove(link)
-
 scene = bpy.context.scene
 if rest:
     view = json.loads(rest[0])
@@ -47,16 +37,35 @@ camera.data.angle = angle
 camera.data.clip_start = 0.01
 scene.camera = camera
 scene.render.engine = 'CYCLES'
-scene.cycles.samples = 1
 scene.cycles.use_denoising = False
 scene.cycles.device = 'CPU'
 scene.render.filter_size = 0.01
 scene.render.resolution_x, scene.render.resolution_y = int(width), int(height)
-scene.render.image_settings.file_format = 'OPEN_EXR'
-scene.render.image_settings.color_mode = 'RGB'
-scene.render.image_settings.color_depth = '32'
-scene.render.filepath = out
-bpy.ops.render.render(write_still=True)
-scene.render.image_settings.file_format = 'PNG'
-scene.render.image_settings.color_depth = '8'
-bpy.data.images['Render Result'].save_render(out[:-4] + '.png')
+
+
+def render(path, samples):
+    scene.cycles.samples = samples
+    scene.render.filepath = path
+    scene.render.image_settings.file_format = 'OPEN_EXR'
+    scene.render.image_settings.color_mode = 'RGB'
+    scene.render.image_settings.color_depth = '32'
+    bpy.ops.render.render(write_still=True)
+    scene.render.image_settings.file_format = 'PNG'
+    scene.render.image_settings.color_depth = '8'
+    bpy.data.images['Render Result'].save_render(path[:-4] + '.png')
+
+
+render(whole, 64)
+scene.cycles.max_bounces = 0
+scene.world.use_nodes = False
+for thing in bpy.data.objects:
+    if thing.type == 'LIGHT':
+        thing.hide_render = True
+for thing in lit:
+    for slot in thing.material_slots:  # only the lightmap: neither the material's own emission nor lamps
+        tree = slot.material.node_tree
+        for node in tree.nodes:
+            if node.type == 'ADD_SHADER':
+                for link in list(node.inputs[1].links):
+                    tree.links.remove(link)
+render(out, 1)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// node scenes.mjs OUT [SCENE...]: exports whole scenes to three.js, Babylon.js, Godot and Blender, renders them there beside
-// `limn render` of the same camera, and prints the nRMSE. Pictures stay in OUT/scenes/SCENE.
+// node scenes.mjs OUT [SCENE...]: exports whole scenes to three.js, Babylon.js, PlayCanvas, Godot and Blender, renders their bounced light
+// there, and the whole of them with lamps and sky, beside `limn render` of the same camera, and prints the nRMSE. Pictures stay in
+// OUT/scenes/SCENE.
 import { execFileSync, spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -59,13 +60,19 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
     const bake = path.join(folder, 'light.limnbake');
     if (!fs.existsSync(bake)) limn('bake', ...scene, ...known[name].bake, '-o', bake);
     const { view: from } = known[name];
+    const picture = (base64, stem) => { // of floats
+        const bytes = Buffer.from(base64, 'base64'), rgb = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
+        const file = path.join(folder, `${stem}.exr`);
+        fs.writeFileSync(file, encodeExr(width, height, rgb));
+        return file;
+    };
     const eye = from ? ['--eye', from.eye.join(), '--target', from.target.join(), '--fov', from.fov] : [];
-    for (const view of ['irradiance', 'indirect']) for (const end of ['exr', 'png'])
+    for (const view of ['irradiance', 'indirect', 'lit']) for (const end of ['exr', 'png'])
         limn('render', ...scene, '--bake', bake, '--view', view, '--near-rays', 0, '--gather-rays', 0, '--width', width, '--height', height, ...eye,
             ...(end === 'png' ? ['--tonemap', 'none'] : []), '-o', path.join(folder, `limn-${view}.${end}`));
     for (const [engine, view, options] of [
         ['three', 'irradiance', ['--encoding', 'ktx2-half']], ['three', 'irradiance', ['--lightmap-bands', 3]], ['babylon', 'indirect', []],
-        ['godot', 'irradiance', []], ['godot', 'irradiance', ['--lightmap-bands', 2]]]) {
+        ['playcanvas', null, []], ['godot', 'irradiance', []], ['godot', 'irradiance', ['--lightmap-bands', 2]]]) {
         const { files } = JSON.parse(limn('export', ...scene, '--bake', bake, '--format', engine, ...options, '--json', '-o', path.join(folder, `${engine}.gltf`)));
         if (engine === 'godot') packGodot(folder, files, from);
         const url = `${address}/scene-${engine}.html?folder=/scenes/${name}&width=${width}&height=${height}${from ? `&from=${JSON.stringify(from)}` : ''}`;
@@ -75,11 +82,9 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
             console.error(`${name}, ${engine}: ${result.error}\n${result.log.join('\n')}`);
             continue;
         }
-        const bytes = Buffer.from(result.rgb, 'base64');
-        const rgb = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
-        const picture = path.join(folder, `${engine}-${view}.exr`);
-        fs.writeFileSync(picture, encodeExr(width, height, rgb));
-        report(name, `${engine} ${options.join(' ')}`, view, compare(picture, path.join(folder, `limn-${view}.exr`)));
+        const consumer = `${engine} ${options.join(' ')}`;
+        if (result.rgb) report(name, consumer, view, compare(picture(result.rgb, `${engine}-${view}`), path.join(folder, `limn-${view}.exr`)));
+        report(name, consumer, 'lit', compare(picture(result.whole, `${engine}-lit`), path.join(folder, 'limn-lit.exr')));
     }
     limn('export', ...scene, '--bake', bake, '--format', 'blender', '-o', path.join(folder, 'blender.gltf'));
     try {
@@ -88,14 +93,17 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
         ++failed;
         console.error(e.stdout);
     }
-    const picture = path.join(folder, 'blender-indirect.exr');
+    const bounced = path.join(folder, 'blender-indirect.exr'), whole = path.join(folder, 'blender-lit.exr');
     const rendered = spawnSync('blender', ['-b', '-noaudio', '--python', path.join(here, 'blender_scene.py'), '--', path.join(folder, 'blender'),
-        picture, width, height, ...(from ? [JSON.stringify(from)] : [])], { encoding: 'utf8' });
+        bounced, whole, width, height, ...(from ? [JSON.stringify(from)] : [])], { encoding: 'utf8' });
     if (rendered.error) console.log(`${name}, Blender: ${rendered.error.message}`);
-    else if (!fs.existsSync(picture)) {
+    else if (!fs.existsSync(bounced)) {
         ++failed;
         console.error(`${name}, Blender:\n${rendered.stdout.slice(-2000)}${rendered.stderr.slice(-2000)}`);
-    } else report(name, 'blender', 'indirect', compare(picture, path.join(folder, 'limn-indirect.exr')));
+    } else {
+        report(name, 'blender', 'indirect', compare(bounced, path.join(folder, 'limn-indirect.exr')));
+        report(name, 'blender', 'lit', compare(whole, path.join(folder, 'limn-lit.exr')));
+    }
 }
 await browser.close();
 server.close();

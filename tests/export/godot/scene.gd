@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Loads a whole exported scene and hands over pictures of its bounced light: first on white surfaces, exposed by each of
-# scene.json's numbers, then once on the scene's own materials.
+# scene.json's numbers, then of the whole scene with its lamps and sky.
 extends Node3D
 
 # White, with the holes of the material that it stands for, and without its normal map, as `limn render` shows irradiance.
@@ -31,12 +31,11 @@ func _ready() -> void:
 	var room := document.generate_scene(state)
 	viewport.add_child(room)
 	look(room, wanted.get("from"))
-	for lamp: Light3D in room.find_children("*", "Light3D", true, false):
-		lamp.visible = false
 	var light := LightmapGI.new()
 	light.set_script(load("res://godot-godot.gd"))
 	light.source = load("res://godot.tres")
 	viewport.add_child(light)
+	light.show_lamps(false)
 
 	var meshes := room.find_children("*", "MeshInstance3D", true, false)
 	for mesh: MeshInstance3D in meshes:
@@ -48,10 +47,14 @@ func _ready() -> void:
 		await picture("white %s" % exposure, exposure)
 	for mesh: MeshInstance3D in meshes:
 		for surface in mesh.mesh.get_surface_count():
-			var material: BaseMaterial3D = mesh.mesh.surface_get_material(surface)
-			material.metallic_specular = 0.0
-			material.emission_enabled = false
 			mesh.set_surface_override_material(surface, null)
+	light.show_lamps(true)
+	var shown: Environment = light.source.get_meta("environment")
+	viewport.environment.background_mode = shown.background_mode
+	viewport.environment.sky = shown.sky
+	viewport.environment.reflected_light_source = shown.reflected_light_source
+	for exposure: float in wanted.exposures:
+		await picture("whole %s" % exposure, exposure)
 	await picture("scene", 1.0)
 	JavaScriptBridge.eval("window.received('done', '')")
 
