@@ -59,7 +59,8 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
 ExportForecast litSceneForecast(const ExportScene& scene, const ExportSettings& settings,
                                 std::uint32_t reflections) {
     ExportForecast f = forecastLightmapOf(scene, settings, PageCount::Any);
-    f.bytes += gltfBytes(scene) + surroundingsBytes(scene, reflections);
+    f.bytes += gltfBytes(scene, {.quantize = settings.quantize, .meshopt = settings.meshopt}) +
+               surroundingsBytes(scene, reflections);
     return f;
 }
 
