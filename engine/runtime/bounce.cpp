@@ -3,7 +3,6 @@
 #include "engine/runtime/scene.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace limn::runtime {
 
@@ -15,11 +14,6 @@ F4 positive(F4 v) {
 
 float lumaOf(F4 rgb) {
     return rgb[1] * 0.5f + (rgb[0] + rgb[2]) * 0.25f;
-}
-
-float relativeChange(float change, float now) {
-    return change > 0 ? std::min(change / std::max(now, std::numeric_limits<float>::min()), 1.f)
-                      : 0.f;
 }
 
 /// B = albedo (E_direct + E_indirect) + pi L_e.

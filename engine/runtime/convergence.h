@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 namespace limn::runtime {
 
@@ -15,10 +16,18 @@ struct RoundChange {
     double ofAll() const { return total > 0 ? change / total : (change > 0 ? 1 : 0); }
 };
 
+/// Relative change of what sends `now`, within [0, 1].
+inline float relativeChange(float change, float now) {
+    return change > 0 ? std::min(change / std::max(now, std::numeric_limits<float>::min()), 1.f)
+                      : 0.f;
+}
+
 /// Decides when bounces may end; docs/transport-format.md has the rule.
 class Convergence {
 public:
     bool reached() const { return m_reached; }
+    /// What the bounces after the latest one would change, [0, 1], by the same estimate.
+    double missing() const { return m_missing; }
 
     /// `skyChanged`: the change reaches the surfels' radiosity only in the second bounce.
     void lightChanged(bool skyChanged) {
@@ -42,8 +51,10 @@ public:
         m_latest[m_rounds % 4] = passedOn;
         const double q = std::min(*std::max_element(m_latest, m_latest + 4), kMaxPassedOn);
         const double toCome = std::max(q / (1 - q), 1.);
-        const bool converged =
-            round.ofAll() * toCome < m_tolerance && round.relative * toCome < m_tolerance;
+        const double due = std::max(round.ofAll(), round.relative) * toCome;
+        m_missing = m_rounds < kBringing || m_unseen > 0 ? 1 : std::min(due, 1.);
+        m_least = 1;
+        const bool converged = due < m_tolerance;
         const bool more = passedOn > kRounding && !converged;
         m_growing = more ? m_growing + 1 : 0;
         m_grown = more ? m_grown * passedOn : 1;
@@ -52,10 +63,28 @@ public:
         m_unseen -= m_unseen > 0;
     }
 
+    /// A bounce that looks ahead: `residual` is what the next one would change if this one's light
+    /// went into it, and `passedOn` the largest share of a change that one has passed on so far.
+    /// Ends where the estimate has not become smaller for kStalled bounces.
+    void addResidual(const RoundChange& residual, double passedOn) {
+        constexpr double kMaxPassedOn = 0.999;
+        constexpr std::uint32_t kMeasured = 3, kStalled = 30;
+        ++m_rounds;
+        m_before = 0; // a step after it has nothing to compare with
+        const double due =
+            std::max(residual.ofAll(), residual.relative) / (1 - std::min(passedOn, kMaxPassedOn));
+        const bool known = m_rounds >= kMeasured && m_unseen == 0;
+        m_missing = known ? std::min(due, 1.) : 1;
+        m_growing = m_missing < m_least ? 0 : m_growing + 1;
+        m_least = std::min(m_least, m_missing);
+        m_reached = known && (due < m_tolerance || m_growing >= kStalled);
+        m_unseen -= m_unseen > 0;
+    }
+
 private:
     bool m_reached = false;
     std::uint32_t m_unseen = 0, m_rounds = 0, m_growing = 0;
-    double m_tolerance = 1e-4;
+    double m_tolerance = 1e-4, m_missing = 1, m_least = 1;
     double m_before = 0, m_grown = 1, m_latest[4] = {};
 };
 

@@ -39,6 +39,10 @@ void takeArrays(limnrt_scene& s, Arena& arena) {
     arena.take(s.radiosity, d.nodes());
     arena.take(s.sh, d.caches * std::uint64_t(s.coefficients()));
     arena.take(s.cacheIrradiance, d.lightmapCaches);
+    for (std::uint32_t k = 0; k < Extrapolation::kKept; ++k) {
+        arena.take(s.ahead.change[k], surfels);
+        arena.take(s.ahead.after[k], surfels);
+    }
     arena.take(s.seenShare, surfels);
     arena.take(s.surfelBasis, surfels * s.inner.luma * s.inner.luma);
     arena.take(s.endBeforeSky, d.caches);
@@ -90,6 +94,7 @@ bool finiteWithin(const float* v, std::size_t n, float lower, float upper) {
 
 void changed(limnrt_scene& s, bool sky = false) {
     s.convergence.lightChanged(sky);
+    s.ahead.clear();
 }
 
 } // namespace
@@ -234,18 +239,30 @@ int limnrt_set_tolerance(limnrt_scene* s, float tolerance) {
 float limnrt_step(limnrt_scene* s) {
     const RoundChange round = bounce(*s);
     s->convergence.addRound(round);
+    s->ahead.clear();
     return float(std::min(std::max(round.ofAll(), round.relative), 1.0));
 }
 
 uint32_t limnrt_converge(limnrt_scene* s, uint32_t max_bounces) {
+    const BouncedLight light{s->indirect,        s->albedo,    s->radiosity,
+                             s->view.surfelArea, s->seenShare, s->view.dims.surfels};
     std::uint32_t bounces = 0;
-    for (; bounces < max_bounces && !s->convergence.reached(); ++bounces)
-        limnrt_step(s);
+    for (; bounces < max_bounces && !s->convergence.reached(); ++bounces) {
+        s->ahead.before(s->indirect, light.surfels);
+        bounce(*s);
+        const Residual residual = s->ahead.replace(light);
+        s->convergence.addResidual({residual.change, residual.total, residual.relative},
+                                   residual.passedOn);
+    }
     return bounces;
 }
 
 int limnrt_converged(const limnrt_scene* s) {
     return s->convergence.reached();
+}
+
+float limnrt_missing(const limnrt_scene* s) {
+    return float(s->convergence.missing());
 }
 
 void limnrt_reset(limnrt_scene* s) {

@@ -116,6 +116,9 @@ int limnrt_set_tolerance(limnrt_scene*, float tolerance);
 /* Bounces until light has converged, at most `max_bounces`; their number, 0 if nothing changed. */
 uint32_t limnrt_converge(limnrt_scene*, uint32_t max_bounces);
 int limnrt_converged(const limnrt_scene*); /* 1 where limnrt_converge() would do nothing */
+/* Share of all light that the bounces so far may be missing, an estimate in [0, 1]: above the
+   tolerance where bounces ended early, 1 before the second one after a change of light. */
+float limnrt_missing(const limnrt_scene*);
 void limnrt_reset(limnrt_scene*); /* forgets bounced light: n steps then bring n bounces exactly */
 
 /* Radiosity per node of the tree, surfels first: red, green, blue [W m^-2] and luma. */

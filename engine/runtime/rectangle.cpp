@@ -7,7 +7,7 @@ namespace limn::runtime {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kExactPi = 3.14159265358979323846;
 
 /// Angle of an edge as seen from the origin, times the cosine between n and the normal of the plane
 /// through the origin and the edge.
@@ -58,7 +58,7 @@ double rectangleIrradiance(const Rectangle& r, Vec3 p, Vec3 n) {
     double sum = 0;
     for (int i = 0; i < count; ++i)
         sum += edgeIntegral(seen[i], seen[(i + 1) % count], n);
-    return std::clamp(std::fabs(sum) / 2, 0.0, kPi); // of either winding
+    return std::clamp(std::fabs(sum) / 2, 0.0, kExactPi); // of either winding
 }
 
 SphericalRectangle::SphericalRectangle(const Rectangle& r, Vec3 from)
@@ -80,10 +80,10 @@ SphericalRectangle::SphericalRectangle(const Rectangle& r, Vec3 from)
                  n3 = -steepness(m_x0);
     const auto angle = [](double a, double b) { return std::acos(std::clamp(-a * b, -1.0, 1.0)); };
     const double g2 = angle(n2, n3), g3 = angle(n3, n0);
-    m_solidAngle = angle(n0, n1) + angle(n1, n2) + g2 + g3 - 2 * kPi;
+    m_solidAngle = angle(n0, n1) + angle(n1, n2) + g2 + g3 - 2 * kExactPi;
     m_b0 = n0;
     m_b1 = n2;
-    m_k = 2 * kPi - g2 - g3;
+    m_k = 2 * kExactPi - g2 - g3;
     m_small = !(m_solidAngle > 1e-6 && m_depth > 0);
 }
 

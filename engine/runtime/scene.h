@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/runtime/convergence.h"
+#include "engine/runtime/extrapolation.h"
 #include "engine/runtime/transport_view.h"
 #include "engine/runtime/vectors.h"
 
@@ -36,6 +37,7 @@ struct limnrt_scene {
     std::size_t memory;                  ///< bytes of the block, which begins with this struct
     limn::runtime::Bands results, inner; ///< bands of results, and of what surfels read
     limn::runtime::Convergence convergence;
+    limn::runtime::Extrapolation ahead;
     bool blackSky, ownDirect;
     /// What `sh` holds of the present radiosity: what the surfels read, in `inner`; or results.
     bool bounceLit, lightmapLit, gridLit;

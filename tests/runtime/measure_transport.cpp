@@ -127,7 +127,9 @@ void printErrors(limnrt_scene* file, const std::shared_ptr<const Bake>& bake, Sc
         relighter.relight(scene, trace, 1000);
         setLights(file, lights);
         limnrt_reset(file);
-        const std::uint32_t bounces = limnrt_converge(file, 1000);
+        std::uint32_t bounces = 0; // one by one, which end where the Relighter's do
+        for (; bounces < 1000 && limnrt_converged(file) == 0; ++bounces)
+            limnrt_step(file);
         const IndirectField& field = relighter.field();
         std::vector<float> rgba(4 * field.lightmap.size());
         limnrt_lightmap_sh(file, rgba.data());

@@ -147,6 +147,55 @@ TEST(Runtime, ASmallerToleranceIsReachedByMoreBouncesAndComesNearer) {
     EXPECT_EQ(limnrt_converged(unchanged), 1);
 }
 
+/// The room, white and lit by its own surfaces, so that each bounce passes on nearly all light.
+struct WhiteRoom {
+    OpenFile file{room().bytes};
+    std::size_t surfels = file.counts().surfels;
+
+    explicit WhiteRoom(float albedo) {
+        const auto count = std::uint32_t(surfels);
+        limnrt_set_lights(file, nullptr, 0);
+        EXPECT_EQ(limnrt_set_albedo(file, 0, count, constant(surfels, albedo).data()), 1);
+        EXPECT_EQ(limnrt_set_emission(file, 0, count, constant(surfels, 1).data()), 1);
+    }
+    double sent() const {
+        double sum = 0;
+        for (std::size_t k = 0; k < surfels; ++k)
+            sum += double(limnrt_surfel_areas(file)[k] * limnrt_radiosity(file)[4 * k]);
+        return sum;
+    }
+};
+
+TEST(Runtime, LookingAheadBringsTheSameLightInAFewBounces) {
+    const WhiteRoom stepped(0.97f), ahead(0.97f);
+    std::uint32_t steps = 0;
+    for (; limnrt_converged(stepped.file) == 0; ++steps)
+        limnrt_step(stepped.file);
+    EXPECT_GT(steps, 200U) << "one by one, each passes on 97 % of the change before it";
+    const std::uint32_t bounces = limnrt_converge(ahead.file, 1000);
+    EXPECT_EQ(limnrt_converged(ahead.file), 1);
+    EXPECT_LT(bounces, 25U);
+    EXPECT_NEAR(ahead.sent() / stepped.sent(), 1, 2e-4);
+}
+
+TEST(Runtime, BouncesThatEndEarlySayHowMuchIsMissing) {
+    const WhiteRoom whole(0.9f);
+    limnrt_set_tolerance(whole.file, 1e-6f);
+    limnrt_converge(whole.file, 1000);
+    const WhiteRoom early(0.9f);
+    EXPECT_EQ(limnrt_missing(early.file), 1) << "nothing is known before a bounce";
+    for (int k = 0; k < 8; ++k) {
+        limnrt_converge(early.file, 1);
+        const double missing = std::abs(1 - early.sent() / whole.sent()),
+                     said = double(limnrt_missing(early.file));
+        EXPECT_GT(1.1 * said, missing) << k;
+        EXPECT_EQ(said < 1e-4, limnrt_converged(early.file) == 1) << k;
+    }
+    EXPECT_LT(limnrt_missing(early.file), 0.1f);
+    limnrt_reset(early.file);
+    EXPECT_EQ(limnrt_missing(early.file), 1) << "a change of light";
+}
+
 // Rays that are traced after the occluders were taken away meet nothing.
 TEST(Runtime, ALightsColourTracesNothingAndAMovedLightItselfAlone) {
     AlignedBytes bytes(room().bytes);
@@ -298,7 +347,8 @@ TEST(Runtime, GridIsSampledAsTheFieldIs) {
     const OpenFile file(fileOf(*baked, scene));
     Relighter relighter(baked, LitBands::All);
     relighter.relight(scene, trace, 1000);
-    limnrt_converge(file, 1000);
+    while (limnrt_converged(file) == 0) // one by one, which end where the other's do
+        limnrt_step(file);
     const LightmapLayout none;
     for (int k = 0; k < 300; ++k) {
         const glm::vec3 p(0.02f + 0.0131f * float(k), 0.05f + float(k * 7 % 29) * 0.1f,

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* relight SCENE.limnrt: lifts the first light by 10 cm, lets it bounce and prints the mean irradiance. */
+/* relight SCENE.limnrt [BOUNCES]: lifts the first light by 10 cm, lets it bounce, 100 times at most, and prints the mean irradiance, and
+   what may be missing where that was too few. */
 #include <limn_runtime.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 int main(int count, char** arguments) {
-    FILE* file = count == 2 ? fopen(arguments[1], "rb") : NULL;
+    FILE* file = count == 2 || count == 3 ? fopen(arguments[1], "rb") : NULL;
     if (!file || fseek(file, 0, SEEK_END) != 0)
         return 2;
     const size_t size = (size_t)ftell(file);
@@ -26,7 +27,7 @@ int main(int count, char** arguments) {
         light.position[1] += 0.1f;
         limnrt_set_lights(scene, &light, 1);
     }
-    const unsigned bounces = limnrt_converge(scene, 100);
+    const unsigned bounces = limnrt_converge(scene, count == 3 ? (unsigned)atoi(arguments[2]) : 100);
     const size_t texels = (size_t)counts.lightmap_width * counts.lightmap_height;
     float* rgba = malloc(texels * 4 * sizeof *rgba);
     limnrt_lightmap_irradiance(scene, NULL, rgba);
@@ -34,6 +35,8 @@ int main(int count, char** arguments) {
     for (size_t t = 0; t < texels; ++t)
         sum += rgba[4 * t + 1], covered += rgba[4 * t + 3];
     printf("%u bounces, mean irradiance %.6g W/m^2\n", bounces, covered > 0 ? sum / covered : 0);
+    if (limnrt_missing(scene) > 1e-4f) /* the tolerance, unless limnrt_set_tolerance() has set another */
+        printf("ended early: %.2g %% of the light may be missing\n", 100 * limnrt_missing(scene));
     free(rgba), limnrt_close(scene), free(bytes);
     return 0;
 }
