@@ -36,7 +36,7 @@ const Bake* bakeBehind(const ExportScene& scene) {
 } // namespace limnrt_format
 
 Result<std::string> transportBytes(const ExportScene& scene, const ExportSettings& settings,
-                                   const Progress& progress) {
+                                   const Progress& progress, bool roundedLinks) {
     const Bake* bake = limnrt_format::bakeBehind(scene);
     if (!bake)
         return fail("the technique that lights the scene has no transport to export");
@@ -60,7 +60,8 @@ Result<std::string> transportBytes(const ExportScene& scene, const ExportSetting
     return transportFile({.bake = *bake,
                           .scene = scene.scene,
                           .lightmap = texel.empty() ? nullptr : &lightmap,
-                          .program = "Limn"});
+                          .program = "Limn",
+                          .roundedLinks = roundedLinks});
 }
 
 ExportForecast forecastTransport(const ExportScene& scene, const ExportSettings& settings) {

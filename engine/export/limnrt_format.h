@@ -9,9 +9,9 @@ namespace limn {
 extern const ExportFormat kLimnrtFormat;
 
 /// The bytes of that file, with a lightmap for plain bilinear lookups, as lightmapImage() has it.
-/// Fails without a bake.
+/// Fails without a bake. `roundedLinks`: see TransportInput.
 Result<std::string> transportBytes(const ExportScene& scene, const ExportSettings& settings,
-                                   const Progress& progress);
+                                   const Progress& progress, bool roundedLinks = false);
 
 /// Its size, about.
 ExportForecast forecastTransport(const ExportScene& scene, const ExportSettings& settings);

@@ -5,6 +5,8 @@
 #include "engine/export/export_resource.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/limnrt_format.h"
+#include "engine/export/packed_transport.h"
+#include "engine/export/web_description.h"
 #include "engine/json/json.h"
 
 #include <array>
@@ -18,7 +20,10 @@ namespace web_format {
 namespace {
 
 constexpr std::array<std::string_view, 2> kSettings = {"detail", "maxSize"};
-constexpr std::array kPages = {"index.html", "lamps.js", "page.js", "panel.js", "transport.js"};
+constexpr std::array kPages = {"index.html",    "expand.js",      "fineness.js",  "handles.js",
+                               "lamp_light.js", "lamp_panel.js",  "lamps.js",     "lightmap.js",
+                               "live_light.js", "live_worker.js", "page.js",      "panel.js",
+                               "progress.js",   "shadow_maps.js", "transport.js", "view_scene.js"};
 
 /// A file of the npm package three, and its place in the page's folder.
 struct ThreeFile {
@@ -71,26 +76,39 @@ Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSett
     std::vector<ExportFile> files; // the page comes first, and is written last
     if (const Result<void> added = addPrograms(files, scene.folders); !added)
         return tl::make_unexpected(added.error());
-    Result<std::string> transport = transportBytes(scene, settings, progress);
+    const Result<std::string> transport = transportBytes(scene, settings, progress, true);
     if (!transport)
         return tl::make_unexpected(transport.error());
+    Result<FirstPicture> first = firstPicture(scene, settings, *transport, progress);
+    if (!first)
+        return tl::make_unexpected(first.error());
+    Result<std::string> packed = packTransport(*transport);
+    if (!packed)
+        return tl::make_unexpected(packed.error());
     const LightmapPages page = onePage(scene.scene, scene.layout, 1);
     Result<std::vector<ExportFile>> gltf =
         gltfFiles(scene, {.pages = &page, .extras = {}}, "scene.gltf", progress);
     if (!gltf)
         return gltf;
-    const Json description = {
-        {"title", name}, {"scene", "scene.gltf"}, {"transport", "scene.limnrt"}};
+    Json description = {{"title", name},
+                        {"scene", "scene.gltf"},
+                        {"transport", "scene.limnpack"},
+                        {"transportBytes", packed->size()}};
+    description.update(first->description);
     files.push_back({"scene.json", description.dump(1) + "\n"});
-    files.push_back({"scene.limnrt", std::move(*transport)});
+    files.push_back({"scene.limnpack", std::move(*packed)});
+    for (ExportFile& file : first->files)
+        files.push_back(std::move(file));
     for (ExportFile& file : *gltf)
         files.push_back(std::move(file));
     return files;
 }
 
 ExportForecast forecast(const ExportScene& scene, const ExportSettings& settings) {
+    constexpr std::uint64_t kPacked = 3; // packed transport is about a third
     ExportForecast f = forecastTransport(scene, settings);
-    f.bytes += kThreeBytes + gltfBytes(scene);
+    f.bytes =
+        f.bytes / kPacked + kThreeBytes + gltfBytes(scene) + std::uint64_t(f.width) * f.height * 3;
     return f;
 }
 

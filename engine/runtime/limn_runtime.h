@@ -68,7 +68,7 @@ limnrt_scene* limnrt_open(const void* bytes, size_t size, const limnrt_options* 
                           char* error, size_t error_size);
 void limnrt_close(limnrt_scene*); /* 0 is allowed */
 
-/* What the file holds. Pointers lead into its bytes. */
+/* Pointers into the file's bytes. */
 void limnrt_get_counts(const limnrt_scene*, limnrt_counts* counts);
 const char* limnrt_meta(const limnrt_scene*, size_t* size); /* JSON, not terminated by 0 */
 const char* limnrt_material_name(const limnrt_scene*, uint32_t index); /* UTF-8; 0 after the last */
@@ -116,9 +116,7 @@ int limnrt_set_tolerance(limnrt_scene*, float tolerance);
 /* Bounces until light has converged, at most `max_bounces`; their number, 0 if nothing changed. */
 uint32_t limnrt_converge(limnrt_scene*, uint32_t max_bounces);
 int limnrt_converged(const limnrt_scene*); /* 1 where limnrt_converge() would do nothing */
-/* Share of all light that the bounces so far may be missing, an estimate in [0, 1]: above the
-   tolerance where bounces ended early, 1 before the second one after a change of light. */
-float limnrt_missing(const limnrt_scene*);
+float limnrt_missing(const limnrt_scene*); /* estimated share of all light, [0, 1] */
 void limnrt_reset(limnrt_scene*); /* forgets bounced light: n steps then bring n bounces exactly */
 
 /* Radiosity per node of the tree, surfels first: red, green, blue [W m^-2] and luma. */
@@ -136,9 +134,8 @@ void limnrt_lightmap_sh_half(limnrt_scene*, float scale, uint16_t* rgba);
    (unit, 3 a texel) or, with 0, for the caches' own, which are the surface's. */
 void limnrt_lightmap_irradiance(limnrt_scene*, const float* normals, float* rgba);
 /* The same as halfs, times `scale`, as limnrt_lightmap_sh_half() writes them. */
-void limnrt_lightmap_irradiance_half(limnrt_scene*, const float* normals, float scale,
-                                     uint16_t* rgba);
-/* Writes the grid: layer i is coefficient i, cells (z * ny + y) * nx + x of 4 floats each. */
+void limnrt_lightmap_irradiance_half(limnrt_scene*, const float* normals, float scale, uint16_t*);
+/* Writes the grid: layer i is coefficient i, cells (z * ny + y) * nx + x of 4 floats. */
 void limnrt_grid_sh(limnrt_scene*, float* rgba);
 /* Light of the grid at a point of a dynamic object: the eight cells around it, weighted by distance
    and by whether they see the point. `normal` is unit. Writes irradiance [W m^-2], 3 floats, or

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // node live.mjs OUT: exports the live page of Cornell, adds a lamp and drags it with real mouse events in headless Chromium, and
-// compares the bounced light before and after with `limn render`. Needs the runtime in build/web (.ci/wasm). Pictures stay in OUT/live.
+// compares the bounced light before and after with `limn render`. Then it removes the lamp, hangs up forty, and opens the page on a
+// phone. Needs the runtime in build/web (.ci/wasm). Pictures stay in OUT/live.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -9,7 +10,7 @@ import { openBrowser, serve } from './browser.mjs';
 import { encodeExr } from './exr.mjs';
 
 const root = path.join(path.dirname(fileURLToPath(import.meta.url)), '../..');
-const folder = path.resolve(process.argv[2], 'live'), site = path.join(folder, 'cornell'), width = 512, height = 384;
+const folder = path.resolve(process.argv[2], 'live'), site = path.join(folder, 'cornell'), width = 720, height = 400;
 const limn = (...args) => execFileSync(path.join(root, 'build/release/limn'), args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'], maxBuffer: 1 << 26 });
 fs.mkdirSync(folder, { recursive: true });
 const bake = path.join(folder, 'cornell.limnbake');
@@ -28,7 +29,7 @@ const settled = () => page.waitForFunction('window.limn?.settled()', { timeout: 
 /** Irradiance of bounced light at every pixel, from the page's own lightmap, upper row first: the mean of 16 points, as limn has it. */
 async function irradiance() {
     const base64 = await page.evaluate((width, height) => {
-        const { THREE, scene, camera, renderer, lamps, lightmap } = limn, kept = [], lit = lamps.map((l) => l.object.visible);
+        const { THREE, scene, camera, renderer, lamps } = limn, lightmap = limn.lightmap(), kept = [], lit = lamps.map((l) => l.object.visible);
         lamps.forEach((l) => { l.object.visible = false; });
         scene.traverse((o) => {
             if (!o.isMesh || !o.geometry.attributes.uv1) return;
@@ -82,8 +83,10 @@ try {
     console.log('| bounced light in the page, against limn render | nRMSE | without the worst 1 % | bias |\n|---|---|---|---|');
     const errors = [await compared('panel')];
     await page.screenshot({ path: path.join(folder, 'panel.png') });
-    const [button] = await page.$$('#controls button');
+    const [button] = await page.$$('#controls button.wide');
     await button.click();
+    await page.mouse.click(width / 2, height / 2); // on the back wall or a block
+    if (await page.evaluate('limn.lamps.length') !== 1) problems.push('no lamp hangs where it was put');
     await settled();
     errors.push(await compared('lamp'));
     await page.screenshot({ path: path.join(folder, 'lamp.png') });
@@ -105,10 +108,35 @@ try {
     const [nowX, nowY] = await at();
     errors.push(await compared('dragged'));
     await page.screenshot({ path: path.join(folder, 'dragged.png') });
-    const state = await page.evaluate('limn.state'), openMs = await page.evaluate('limn.openMs');
+    const state = await page.evaluate('limn.state'), openMs = await page.evaluate('limn.light.openMs');
     console.log(`opened in ${openMs.toFixed(0)} ms, ${state.lightMs.toFixed(1)} ms per bounce, ${(drawn / seconds).toFixed(1)} frames/s while dragged, ${(bytes / 1e6).toFixed(1)} MB`);
     if (Math.hypot(nowX - (x - 5 * kSteps), nowY - (y - 3 * kSteps)) > 3) problems.push(`the lamp is at ${nowX}, ${nowY}`);
     if (drawn < 2) problems.push('nothing was drawn while the lamp was dragged');
+    const brightness = (p) => p.evaluate(() => { // mean of the picture as it is shown, [0, 255]
+        const { renderer, scene, camera } = limn, gl = renderer.getContext(), w = gl.drawingBufferWidth, h = gl.drawingBufferHeight;
+        const rgba = new Uint8Array(4 * w * h);
+        renderer.render(scene, camera);
+        gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, rgba);
+        return rgba.reduce((sum, v, k) => sum + (k % 4 < 3 ? v : 0), 0) / (3 * w * h);
+    });
+    await page.keyboard.press('Delete');
+    await settled();
+    if (await page.evaluate('limn.lamps.length') !== 0) problems.push('the lamp is not removed');
+    const dark = await brightness(page);
+    await page.evaluate(() => { while (limn.lamps.length < 40) limn.addLamp(); });
+    await settled();
+    if (!(await brightness(page) > dark + 20)) problems.push('forty lamps do not shine');
+    await page.screenshot({ path: path.join(folder, 'forty.png') });
+    await page.setViewport({ width: 390, height: 844, isMobile: true, hasTouch: true });
+    await page.reload();
+    await settled();
+    const phone = await page.evaluate(() => {
+        const { THREE, scene, camera } = limn, box = new THREE.Box3().setFromObject(scene), panel = document.getElementById('panel');
+        const seen = [box.min, box.max].map((p) => p.clone().project(camera));
+        return { wide: document.documentElement.scrollWidth, top: panel.getBoundingClientRect().top, seen: Math.max(...seen.map((p) => Math.abs(p.x))) };
+    });
+    if (phone.wide > 390 || phone.top < 700 || !(phone.seen < 1.6)) problems.push(`a phone shows ${JSON.stringify(phone)}`);
+    await page.screenshot({ path: path.join(folder, 'phone.png') });
     if (errors.some((e) => !(e < 0.005))) problems.push('bounced light differs from that of limn render by more than 0.5 %');
 } catch (e) {
     problems.push(e.message);

@@ -150,6 +150,9 @@ TEST_F(Web, ItsDescriptionNamesFilesThatAreThere) {
     EXPECT_EQ(description["title"], "room");
     for (const char* key : {"scene", "transport"})
         EXPECT_NE(named(description[key]), files->end()) << key;
+    EXPECT_EQ(description["transportBytes"], named(description["transport"])->bytes.size());
+    ASSERT_NE(named(description["lightmap"]["file"]), files->end());
+    EXPECT_GT(description["meanIrradiance"], 0);
 }
 
 TEST_F(Web, WhatIsMissingIsNamedWithWhatHelps) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The lamps of the page: what three.js draws direct light with, and what a visitor takes hold of.
+// The lamps of the page: what a visitor takes hold of, and the rectangles, whose direct light three.js draws, without shadows.
 import * as THREE from 'three';
-import { RectAreaLightUniformsLib } from 'three/addons/lights/RectAreaLightUniformsLib.js';
 import { LightKind } from './transport.js';
 
 /** Rotation whose -Z axis is `direction`, as lights of three.js shine, turned by `roll` about it. */
@@ -11,77 +10,50 @@ function facing(direction, roll) {
   return new THREE.Quaternion().setFromRotationMatrix(m).multiply(new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(0, 0, 1), roll));
 }
 
-function shadowed(light, size, extent) {
-  light.castShadow = true;
-  light.shadow.mapSize.set(size, size);
-  light.shadow.autoUpdate = false;
-  light.shadow.bias = -1e-4 * extent;
-  light.shadow.normalBias = 2e-3 * extent;
-  light.shadow.camera.near = 1e-3 * extent;
-  light.shadow.camera.far = 4 * extent;
-  return light;
+/** What rectangles of three.js need; loaded where a scene has one. */
+export async function prepareRectangles(lights) {
+  if (!lights.some((l) => l.kind === LightKind.rectangle)) return;
+  const { RectAreaLightUniformsLib } = await import('three/addons/lights/RectAreaLightUniformsLib.js');
+  RectAreaLightUniformsLib.init();
 }
 
-/** `lights` in the runtime's terms, several for one lamp where a rectangle was divided. `bounds` encloses the scene. */
-export function makeLamp(name, lights, bounds) {
-  const extent = bounds.getSize(new THREE.Vector3()).length(), object = new THREE.Group(), target = new THREE.Object3D();
-  const first = lights[0];
-  let drawn = [];
-  switch (first.kind) {
-    case LightKind.directional: {
-      const sun = shadowed(new THREE.DirectionalLight(), 2048, extent);
-      Object.assign(sun.shadow.camera, { left: -extent / 2, right: extent / 2, top: extent / 2, bottom: -extent / 2 });
-      sun.target = target;
-      drawn = [sun];
-      break;
-    }
-    case LightKind.point:
-      drawn = [shadowed(new THREE.PointLight(0xffffff, 1, first.range, 2), 512, extent)];
-      break;
-    case LightKind.spot: {
-      const penumbra = 1 - first.innerAngle / first.outerAngle;
-      const spot = shadowed(new THREE.SpotLight(0xffffff, 1, first.range, first.outerAngle, penumbra, 2), 1024, extent);
-      spot.target = target;
-      drawn = [spot];
-      break;
-    }
-    case LightKind.rectangle:
-      RectAreaLightUniformsLib.init();
-      drawn = lights.map((l) => new THREE.RectAreaLight(0xffffff, 1, l.width, l.height));
-      break;
-  }
-  const hasPlace = first.kind !== LightKind.directional;
+/** `lights` in the runtime's terms, several for one lamp where a rectangle was divided. `extent` [m] is the scene's. */
+export function makeLamp(name, lights, extent) {
+  const object = new THREE.Group(), first = lights[0], hasPlace = first.kind !== LightKind.directional;
+  const drawn = first.kind === LightKind.rectangle ? lights.map((l) => new THREE.RectAreaLight(0xffffff, 1, l.width, l.height)) : [];
   const handle = hasPlace ? new THREE.Mesh(new THREE.SphereGeometry(extent * 0.008, 24, 12), new THREE.MeshBasicMaterial({ toneMapped: false })) : null;
-  if (handle) object.add(handle);
-  object.add(target, ...drawn);
+  for (const part of [handle, ...drawn]) if (part) object.add(part);
 
   const lamp = {
     name, lights, object, handle, hasPlace,
-    /** Brings what three.js draws up to the state of `lights`. `moved`: shadows are drawn again. */
-    update(moved) {
+    /** Brings what is drawn of the lamp itself up to the state of `lights`. */
+    update() {
       drawn.forEach((light, k) => {
-        const l = lights[k], color = new THREE.Color(...l.color), most = Math.max(color.r, color.g, color.b, 1e-30);
-        light.color = color.multiplyScalar(1 / most);
-        light.intensity = l.on ? l.strength * most : 0;
-        if (hasPlace) light.position.set(...l.position);
-        else light.position.copy(bounds.getCenter(new THREE.Vector3())).addScaledVector(new THREE.Vector3(...l.direction), -extent);
-        if (light.isRectAreaLight) light.quaternion.copy(facing(l.direction, l.roll));
-        if (moved && light.shadow) light.shadow.needsUpdate = true;
+        const l = lights[k];
+        light.color.setRGB(...l.color);
+        light.intensity = l.on ? l.strength : 0;
+        light.position.set(...l.position);
+        light.quaternion.copy(facing(l.direction, l.roll));
       });
-      target.position.copy(drawn[0].position).addScaledVector(new THREE.Vector3(...first.direction), extent);
-      if (handle) {
-        handle.position.set(...first.position);
-        handle.material.color.copy(drawn[0].color);
-        handle.visible = first.on;
-      }
+      if (!handle) return;
+      handle.position.set(...first.position);
+      handle.material.color.setRGB(...first.color).multiplyScalar(1 / Math.max(...first.color, 1e-30));
+      if (!first.on) handle.material.color.setScalar(0.1); // a lamp that is off can still be taken hold of
     },
     moveBy(step) {
       for (const l of lights) l.position = l.position.map((x, k) => x + step.getComponent(k));
-      lamp.update(true);
+      lamp.update();
     },
   };
-  lamp.update(true);
+  lamp.update();
   return lamp;
+}
+
+/** The lamps of a file's lights, of which a divided rectangle has several. `names`: of their sources. */
+export function lampsOf(lights, names, extent) {
+  const bySource = new Map();
+  for (const light of lights) bySource.set(light.source, [...(bySource.get(light.source) ?? []), light]);
+  return [...bySource].map(([source, parts]) => makeLamp(names?.[source] || `Lamp ${source + 1}`, parts, extent));
 }
 
 /** A point light in the runtime's terms. */

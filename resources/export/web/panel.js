@@ -9,13 +9,26 @@ function row(parent, label, ...widgets) {
   return line;
 }
 
-/** A group of rows under `title`, which is cut off where it is too long. */
-export function group(parent, title) {
-  const set = document.createElement('fieldset'), legend = document.createElement('legend');
-  legend.textContent = legend.title = title;
-  set.append(legend);
+/**
+ * A group of rows that folds, under `title`, which is cut off where it is too long; `full` is all of it. `fill(body)` is called when it
+ * is first unfolded.
+ */
+export function group(parent, title, { open = false, full = title, fill } = {}) {
+  const set = document.createElement('details'), head = document.createElement('summary'), body = document.createElement('div');
+  const name = document.createElement('span'), count = document.createElement('span');
+  name.className = 'name';
+  name.textContent = title;
+  name.title = full;
+  count.className = 'count';
+  head.append(name, count);
+  set.append(head, body);
   parent.append(set);
-  return set;
+  let filled = !fill;
+  const unfold = () => { if (set.open && !filled) { filled = true; fill(body); } };
+  set.addEventListener('toggle', unfold);
+  set.open = open;
+  unfold();
+  return { set, body, open() { set.open = true; unfold(); }, count(n) { count.textContent = n; } };
 }
 
 /** A slider over [lower, upper]. `text` shows a value with its unit. */
@@ -44,9 +57,10 @@ export function toggle(parent, label, on, changed) {
   row(parent, label, input);
 }
 
-export function button(parent, label, pressed) {
+export function button(parent, label, pressed, kind = 'wide') {
   const b = document.createElement('button');
   b.type = 'button';
+  b.className = kind;
   b.textContent = label;
   b.addEventListener('click', pressed);
   parent.append(b);

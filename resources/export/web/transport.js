@@ -2,12 +2,29 @@
 // The relighting runtime, compiled to WebAssembly, behind a few functions. The interface is that of limn_runtime.h, which states
 // units and ranges.
 
+import { unpackedBytes, unpackTransport } from './expand.js';
+
 export const LightKind = { directional: 0, point: 1, spot: 2, rectangle: 3 };
+export const kMaxLights = 256; // of a page, or as many as its scene has
 const kLightWords = 20, kLightOff = 1;
 
-/** Opens the transport file in `file`, an ArrayBuffer, with the runtime in `wasm`, another. Throws an Error that says why not. */
-export async function openTransport(wasm, file) {
-  let memory;
+/** The lights in a section LGHT, which lies in `buffer` from `offset` on, a multiple of 4. */
+export function lightsIn(buffer, offset, count) {
+  const lights = [];
+  for (let k = 0; k < count; ++k) {
+    const at = offset + 4 * kLightWords * k, words = new Uint32Array(buffer, at, kLightWords), f = new Float32Array(buffer, at, kLightWords);
+    lights.push({ kind: words[0], on: !(words[1] & kLightOff), position: [...f.slice(2, 5)], direction: [...f.slice(5, 8)],
+      color: [...f.slice(8, 11)], strength: f[11], range: f[12], innerAngle: f[13], outerAngle: f[14], width: f[15], height: f[16],
+      roll: f[17], source: words[18] });
+  }
+  return lights;
+}
+
+/**
+ * Opens a packed transport file, expanded, with the runtime in `wasm`. Throws an Error that says why not. `maxLights`: lights at
+ * most; `tolerance`: share of the light that may be missing when bounces end.
+ */
+export async function openTransport(wasm, packed, maxLights, tolerance) {
   const { instance } = await WebAssembly.instantiate(wasm, { env: { emscripten_notify_memory_growth() {} } });
   const rt = instance.exports;
   rt._initialize?.();
@@ -24,20 +41,19 @@ export async function openTransport(wasm, file) {
     return at;
   };
 
-  const base = (allocate(file.byteLength + 16) + 15) & ~15;
-  bytesAt(base, file.byteLength).set(new Uint8Array(file));
+  const size = unpackedBytes(packed), base = (allocate(size + 16) + 15) & ~15;
+  unpackTransport(packed, bytesAt(base, size).fill(0));
   const error = allocate(512), options = allocate(24);
-  wordsAt(options, 6).set([0, 32, 0, 0, 0, 0]); // at most 32 lights
-  const scene = rt.limnrt_open(base, file.byteLength, options, error, 512);
+  wordsAt(options, 6).set([0, maxLights, 0, 0, 0, 0]);
+  const scene = rt.limnrt_open(base, size, options, error, 512);
   if (!scene) throw new Error(textAt(error));
+  rt.limnrt_set_tolerance(scene, tolerance);
 
   const countsAt = allocate(104);
   rt.limnrt_get_counts(scene, countsAt);
   const names = ['surfels', 'skyCells', 'nodes', 'caches', 'lightmapCaches', 'materials', 'lights', 'maxLights', 'triangles', 'bands',
     'chromaBands', 'width', 'height'];
   const counts = Object.fromEntries(names.map((name, k) => [name, wordsAt(countsAt, 16)[k]]));
-  const sizeAt = allocate(8), metaAt = rt.limnrt_meta(scene, sizeAt);
-  const meta = JSON.parse(new TextDecoder().decode(bytesAt(metaAt, wordsAt(sizeAt, 1)[0]).slice()));
 
   const lightsAt = allocate(4 * kLightWords * counts.maxLights), rgbAt = allocate(12), pointAt = allocate(24), shAt = allocate(16 * 64);
   const skyAt = allocate(Math.max(12 * counts.skyCells, 4));
@@ -46,19 +62,7 @@ export async function openTransport(wasm, file) {
   const check = (ok, what) => { if (!ok) throw new Error(`The runtime refuses ${what}`); };
 
   return {
-    counts, meta, fileSky,
-
-    /** The lights that the file holds, as setLights() takes them. */
-    fileLights() {
-      const at = rt.limnrt_file_lights(scene), lights = [];
-      for (let k = 0; k < counts.lights; ++k) {
-        const words = wordsAt(at + 4 * kLightWords * k, kLightWords), f = floatsAt(at + 4 * kLightWords * k, kLightWords);
-        lights.push({ kind: words[0], on: !(words[1] & kLightOff), position: [...f.slice(2, 5)], direction: [...f.slice(5, 8)],
-          color: [...f.slice(8, 11)], strength: f[11], range: f[12], innerAngle: f[13], outerAngle: f[14], width: f[15], height: f[16],
-          roll: f[17], source: words[18] });
-      }
-      return lights;
-    },
+    counts, fileSky,
 
     setLights(lights) {
       lights.forEach((l, k) => {
@@ -87,6 +91,8 @@ export async function openTransport(wasm, file) {
     /** One bounce. Whether another one would change anything to speak of is what converged() says. */
     step() { return rt.limnrt_converge(scene, 1); },
     converged() { return rt.limnrt_converged(scene) === 1; },
+    /** Share of all light that may still be missing, [0, 1]. */
+    missing() { return rt.limnrt_missing(scene); },
 
     /** Irradiance [W m^-2] times `scale`, RGBA in half floats, the upper row first: a view that the next call makes invalid. */
     lightmap(scale) {
@@ -101,21 +107,6 @@ export async function openTransport(wasm, file) {
       const rgba = floatsAt(shAt, 36), rgb = [];
       for (let i = 0; i < 9; ++i) rgb.push([rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]]);
       return rgb;
-    },
-
-    /** Mean irradiance on the surfaces, by area, direct and bounced, sampled at every seventh texel [W m^-2]. */
-    meanIrradiance() {
-      const areas = floatsAt(rt.limnrt_surfel_areas(scene), counts.surfels), direct = floatsAt(rt.limnrt_direct(scene), 4 * counts.surfels);
-      let sum = 0, area = 0;
-      for (let k = 0; k < counts.surfels; ++k) {
-        sum += areas[k] * (direct[4 * k] + direct[4 * k + 1] + direct[4 * k + 2]) / 3;
-        area += areas[k];
-      }
-      rt.limnrt_lightmap_irradiance(scene, 0, mapAt);
-      const map = floatsAt(mapAt, 4 * counts.width * counts.height), kStep = 7; // texels
-      let bounced = 0, texels = 0;
-      for (let t = 0; t < map.length; t += 4 * kStep, ++texels) bounced += (map[t] + map[t + 1] + map[t + 2]) / 3;
-      return sum / Math.max(area, 1e-30) + bounced / Math.max(texels, 1);
     },
   };
 }

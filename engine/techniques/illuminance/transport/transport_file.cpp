@@ -5,6 +5,7 @@
 #include "engine/techniques/illuminance/format/bake_defect.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 #include "engine/techniques/illuminance/transport/occluder_tree.h"
+#include "engine/techniques/illuminance/transport/rounded_links.h"
 #include "engine/techniques/illuminance/transport/transport_meta.h"
 #include "engine/techniques/illuminance/transport/transport_sections.h"
 
@@ -188,13 +189,17 @@ void addSenders(const TransportInput& in, TransportSections& out) {
     out.add("SKYL", sky);
 }
 
-void addReceivers(const Bake& bake, const LightmapParts& parts, TransportSections& out) {
+void addReceivers(const TransportInput& in, const LightmapParts& parts, TransportSections& out) {
+    const Bake& bake = in.bake;
     const Caches& c = bake.caches;
     out.add("CPOS", c.position);
     out.add("CNRM", c.normal);
     out.add("LBEG", c.linkBegin);
     out.add("LEXP", c.linkExponent);
-    out.add("LINK", c.links);
+    if (in.roundedLinks)
+        out.add("LINK", roundLinks(c.links));
+    else
+        out.add("LINK", c.links);
     out.add("FBEG", c.fillBegin);
     out.add("FSRC", c.fillSource);
     out.add("FWGT", c.fillWeight);
@@ -268,7 +273,7 @@ Result<std::string> transportFile(const TransportInput& in) {
     out.addBytes("MNAM", 1, materialNames(in.scene));
     out.add("LGHT", lights);
     addSenders(in, out);
-    addReceivers(b, *parts, out);
+    addReceivers(in, *parts, out);
     out.add("CTRI", occluders.cutouts.triangles);
     out.add("CMSK", occluders.cutouts.masks);
     out.add("CTEX", occluders.cutouts.texels);

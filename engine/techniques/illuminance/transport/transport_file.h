@@ -28,6 +28,8 @@ struct TransportInput {
     /// Null: the bake's own lightmap, whose texels are looked up by LightmapLayout::snaps.
     const TransportLightmap* lightmap = nullptr;
     std::string program; ///< name and version of what writes the file, for its receipt
+    /// Rounds links to a third fewer bits, by roundLinks(), so that the file compresses better.
+    bool roundedLinks = false;
 };
 
 /// Writes the relightable transport file that docs/transport-format.md specifies: the bake's

@@ -21,14 +21,7 @@ struct Header {
     std::uint64_t bytes = 0, tableHash = 0;
     std::uint64_t zero[3] = {};
 };
-static_assert(sizeof(Header) == 64);
-
-struct Entry {
-    char tag[4];
-    std::uint32_t elementSize;
-    std::uint64_t offset, bytes, hash;
-};
-static_assert(sizeof(Entry) == 32);
+static_assert(sizeof(Header) == kTransportHeaderBytes);
 
 std::size_t aligned(std::size_t n) {
     return (n + kAlignment - 1) / kAlignment * kAlignment;
@@ -36,19 +29,34 @@ std::size_t aligned(std::size_t n) {
 
 } // namespace
 
+std::vector<TransportEntry> transportTable(std::string_view file) {
+    Header header;
+    std::memcpy(&header, file.data(), sizeof header);
+    std::vector<TransportEntry> table(header.sections);
+    std::memcpy(table.data(), file.data() + sizeof header, table.size() * sizeof(TransportEntry));
+    return table;
+}
+
+std::string_view transportSection(std::string_view file, std::string_view tag) {
+    for (const TransportEntry& entry : transportTable(file))
+        if (std::string_view(entry.tag, sizeof entry.tag) == tag)
+            return file.substr(std::size_t(entry.offset), std::size_t(entry.bytes));
+    return {};
+}
+
 void TransportSections::addBytes(const char* tag, std::uint32_t elementSize, std::string bytes) {
     m_sections.push_back({tag, elementSize, std::move(bytes)});
 }
 
 std::string TransportSections::file() const {
-    std::vector<Entry> table;
-    std::size_t end = sizeof(Header) + m_sections.size() * sizeof(Entry);
+    std::vector<TransportEntry> table;
+    std::size_t end = sizeof(Header) + m_sections.size() * sizeof(TransportEntry);
     for (const Section& s : m_sections) {
-        Entry entry{{},
-                    s.elementSize,
-                    aligned(end),
-                    s.bytes.size(),
-                    XXH64(s.bytes.data(), s.bytes.size(), 0)};
+        TransportEntry entry{{},
+                             s.elementSize,
+                             aligned(end),
+                             s.bytes.size(),
+                             XXH64(s.bytes.data(), s.bytes.size(), 0)};
         std::memcpy(entry.tag, s.tag, sizeof entry.tag);
         end = std::size_t(entry.offset) + s.bytes.size();
         table.push_back(entry);
@@ -56,10 +64,10 @@ std::string TransportSections::file() const {
     Header header;
     header.sections = std::uint32_t(table.size());
     header.bytes = end;
-    header.tableHash = XXH64(table.data(), table.size() * sizeof(Entry), 0);
+    header.tableHash = XXH64(table.data(), table.size() * sizeof(TransportEntry), 0);
     std::string file(end, '\0');
     std::memcpy(file.data(), &header, sizeof header);
-    std::memcpy(file.data() + sizeof header, table.data(), table.size() * sizeof(Entry));
+    std::memcpy(file.data() + sizeof header, table.data(), table.size() * sizeof(TransportEntry));
     for (std::size_t k = 0; k < table.size(); ++k)
         std::memcpy(file.data() + table[k].offset, m_sections[k].bytes.data(),
                     m_sections[k].bytes.size());
