@@ -153,6 +153,9 @@ Json nodesJson(const GltfFile& file, Json& roots) {
         if (node.spot >= 0)
             json["extensions"]["KHR_lights_punctual"]["light"] =
                 file.suns.size() + std::size_t(node.spot);
+        if (node.point >= 0)
+            json["extensions"]["KHR_lights_punctual"]["light"] =
+                file.suns.size() + file.spots.size() + std::size_t(node.point);
         out.push_back(std::move(json));
         assert(node.parent < int(i));
         if (node.parent >= 0)
@@ -187,6 +190,11 @@ Json lightsJson(const GltfFile& file) {
                        {"spot",
                         {{"innerConeAngle", tidy(spot.innerAngle)},
                          {"outerConeAngle", tidy(spot.outerAngle)}}}});
+    for (const GltfPoint& point : file.points)
+        out.push_back({{"name", point.name},
+                       {"type", "point"},
+                       {"color", numbers(point.color)},
+                       {"intensity", tidy(point.candela)}});
     return out;
 }
 
@@ -242,7 +250,7 @@ bool writeGltf(const GltfFile& file, const std::string& folder) {
         json["extensionsUsed"].push_back("KHR_materials_transmission");
     if (std::ranges::any_of(file.materials, [](const auto& m) { return m.thickness > 0; }))
         json["extensionsUsed"].push_back("KHR_materials_volume");
-    if (!file.suns.empty() || !file.spots.empty()) {
+    if (!file.suns.empty() || !file.spots.empty() || !file.points.empty()) {
         json["extensionsUsed"].push_back("KHR_lights_punctual");
         json["extensions"]["KHR_lights_punctual"]["lights"] = lightsJson(file);
     }

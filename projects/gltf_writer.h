@@ -44,16 +44,23 @@ struct GltfSpot {
     double innerAngle = 0, outerAngle = 0.785398; ///< half-angles [rad]
 };
 
+/// Point light of KHR_lights_punctual.
+struct GltfPoint {
+    std::string name{};
+    glm::dvec3 color{1};
+    double candela = 0;
+};
+
 struct GltfCamera {
     std::string name{};
     double fovY = 0.9; ///< [rad]
 };
 
-/// A root node, or a child of `parent`. At most one of mesh, camera, sun and spot is set (>= 0).
+/// A root node, or a child of `parent`. At most one of mesh, camera and lights is set (>= 0).
 struct GltfNode {
     std::string name{};
     int parent = -1; ///< an earlier node
-    int mesh = -1, camera = -1, sun = -1, spot = -1;
+    int mesh = -1, camera = -1, sun = -1, spot = -1, point = -1;
     glm::dvec3 translation{0};
     glm::dvec4 rotation{0, 0, 0, 1}; ///< x, y, z, w; unit
     glm::dvec3 scale{1};
@@ -66,6 +73,7 @@ struct GltfFile {
     std::vector<Mesh> meshes{}; ///< their uv1, tangents and colours are not written
     std::vector<GltfSun> suns{};
     std::vector<GltfSpot> spots{};
+    std::vector<GltfPoint> points{};
     std::vector<GltfCamera> cameras{};
     std::vector<GltfNode> nodes{};
 };

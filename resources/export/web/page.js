@@ -15,7 +15,7 @@ import { startLiveLight } from './live_light.js';
 import { button, color, group, short, slider } from './panel.js';
 import { download, megabytes, progressBar } from './progress.js';
 import { kMaxLights, lightsIn } from './transport.js';
-import { emissive, lightScene, loadScene, placeCamera } from './view_scene.js';
+import { emissive, frameView, lightScene, loadScene, placeCamera } from './view_scene.js';
 
 const element = (id) => document.getElementById(id);
 const message = element('message'), panel = element('panel'), controls = element('controls');
@@ -95,7 +95,7 @@ async function start() {
   };
 
   const camera = new THREE.PerspectiveCamera(45, 1, extent * 1e-3, extent * 8), orbit = new OrbitControls(camera, canvas);
-  const fov = placeCamera(camera, orbit.target, view);
+  const wanted = placeCamera(camera, orbit.target, view);
   orbit.addEventListener('change', draw);
   orbit.update();
 
@@ -157,15 +157,11 @@ async function start() {
   list.list(lamps);
   sendLights();
 
-  // The camera shows the whole width of the file's view in narrow windows, above the panel where that lies at the bottom.
   const resize = () => {
     renderer.setPixelRatio(Math.min(devicePixelRatio, 2) * fineness.share);
     renderer.setSize(innerWidth, innerHeight);
-    const below = innerWidth <= 600 ? panel.offsetHeight : 0, free = Math.max(innerHeight - below, innerHeight / 4);
-    const half = Math.tan(fov * Math.PI / 360) * Math.max(1, free / innerWidth) * innerHeight / free;
-    camera.fov = Math.min(Math.atan(half) * 360 / Math.PI, 150);
-    camera.aspect = innerWidth / innerHeight;
-    camera.setViewOffset(innerWidth, innerHeight, 0, below / 2, innerWidth, innerHeight); // updates the projection
+    const isPhone = innerWidth <= 600, isOpen = element('light').open;
+    frameView(camera, wanted, innerWidth, innerHeight, isPhone || !isOpen ? 0 : panel.offsetWidth, isPhone ? panel.offsetHeight : 0);
     draw();
   };
   message.remove();
@@ -203,7 +199,7 @@ async function start() {
   }
   requestAnimationFrame(frame);
   // For scripts that drive the page.
-  window.limn = { THREE, scene, camera, orbit, renderer, lamps, lampLight, light, state, addLamp, removeLamp, sendLights, draw,
+  window.limn = { THREE, scene, camera, orbit, renderer, lamps, lampLight, light, state, wanted, addLamp, removeLamp, sendLights, draw,
     lightmap: () => shown, settled: () => light.settled() && !dirty && !lampsChanged };
 }
 

@@ -14,6 +14,7 @@ export class Casters {
     this.scene = new THREE.Scene();
     this.eye = { value: new THREE.Vector4() };
     this.materials = new Map(); // by texture
+    this.added = new Map(); // by positions
   }
 
   /** Textures with holes let light through where their alpha is below the cutoff. */
@@ -58,7 +59,11 @@ export class Casters {
     return this.materials.get(key);
   }
 
+  /** A surface with two sides is two meshes of the same triangles, of which one casts the shadow. */
   add(mesh) {
+    const { position } = mesh.geometry.attributes, others = this.added.get(position) ?? [];
+    this.added.set(position, [...others, mesh]);
+    if (others.some((o) => o.geometry.index?.count === mesh.geometry.index?.count && o.matrixWorld.equals(mesh.matrixWorld))) return;
     const caster = new THREE.Mesh(mesh.geometry, this.material(mesh.material));
     caster.matrixAutoUpdate = false;
     caster.matrixWorldAutoUpdate = false;

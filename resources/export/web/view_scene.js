@@ -71,18 +71,36 @@ export function emissive({ materials, users }) {
   return [...found.values()];
 }
 
-/** Puts the camera where the file's first one stands, or outside of the scene. Returns the vertical field of view [degrees]. */
+/**
+ * Puts the camera where the file's first one stands, or outside of the scene. Returns the tangents of half of the view that it should show:
+ * `high`, and at least `wide`, which is all of the scene where the camera stands outside of it.
+ */
 export function placeCamera(camera, target, { root, cameras, bounds }) {
   const extent = bounds.getSize(new THREE.Vector3()).length(), [shown] = cameras;
-  if (!shown) {
+  if (shown) {
+    shown.updateWorldMatrix(true, false);
+    camera.position.setFromMatrixPosition(shown.matrixWorld);
+    const ahead = new THREE.Vector3(0, 0, -1).transformDirection(shown.matrixWorld);
+    const hit = new THREE.Raycaster(camera.position, ahead).intersectObject(root, true)[0];
+    target.copy(camera.position).addScaledVector(ahead, hit?.distance ?? extent / 2);
+  } else {
     bounds.getCenter(target);
     camera.position.copy(target).add(new THREE.Vector3(0.4, 0.3, 0.8).multiplyScalar(extent));
-    return camera.fov;
   }
-  shown.updateWorldMatrix(true, false);
-  camera.position.setFromMatrixPosition(shown.matrixWorld);
-  const ahead = new THREE.Vector3(0, 0, -1).transformDirection(shown.matrixWorld);
-  const hit = new THREE.Raycaster(camera.position, ahead).intersectObject(root, true)[0];
-  target.copy(camera.position).addScaledVector(ahead, hit?.distance ?? extent / 2);
-  return shown.fov;
+  camera.lookAt(target);
+  camera.updateMatrixWorld();
+  const high = Math.tan((shown?.fov ?? camera.fov) * Math.PI / 360), kWidest = 2;
+  const corners = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => new THREE.Vector3(k & 1 ? bounds.max.x : bounds.min.x, k & 2 ? bounds.max.y : bounds.min.y,
+    k & 4 ? bounds.max.z : bounds.min.z).applyMatrix4(camera.matrixWorldInverse));
+  const outside = corners.every((p) => p.z < 0), all = Math.max(...corners.map((p) => Math.abs(p.x / p.z)));
+  return { high, wide: outside ? Math.min(Math.max(1.03 * all, high), kWidest * high) : high };
+}
+
+/** Shows what `wanted` of placeCamera() says in the part of a window that a panel at its right or lower edge leaves free [pixels]. */
+export function frameView(camera, { high, wide }, width, height, right, below) {
+  const freeWidth = Math.max(width - right, width / 4), freeHeight = Math.max(height - below, height / 4);
+  const half = Math.max(high, wide * freeHeight / freeWidth) * height / freeHeight;
+  camera.fov = Math.min(Math.atan(half) * 360 / Math.PI, 150);
+  camera.aspect = width / height;
+  camera.setViewOffset(width, height, right / 2, below / 2, width, height); // updates the projection
 }
