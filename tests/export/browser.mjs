@@ -3,6 +3,7 @@
 import fs from 'node:fs';
 import http from 'node:http';
 import path from 'node:path';
+import { Readable } from 'node:stream';
 import puppeteer from 'puppeteer-core';
 
 const types = {
@@ -10,8 +11,18 @@ const types = {
     '.wasm': 'application/wasm', '.png': 'image/png', '.gltf': 'model/gltf+json',
 };
 
-/** Serves `folders`, an object of URL prefix to folder. Returns the server; its port is free. */
-export async function serve(folders) {
+/** The bytes of a stream at the pace of a line { bytesPerSecond, free, sent }, which all downloads share. */
+async function* paced(stream, line) {
+    for await (const chunk of stream) {
+        line.free = Math.max(line.free, performance.now()) + chunk.length / line.bytesPerSecond * 1000;
+        await new Promise((resolve) => setTimeout(resolve, line.free - performance.now()));
+        line.sent += chunk.length;
+        yield chunk;
+    }
+}
+
+/** Serves `folders`, an object of URL prefix to folder, over `line` if it is given. Returns the server; its port is free. */
+export async function serve(folders, line) {
     const server = http.createServer((request, response) => {
         const url = decodeURIComponent(new URL(request.url, 'http://x').pathname);
         const prefix = Object.keys(folders).find((p) => url.startsWith(p));
@@ -23,7 +34,9 @@ export async function serve(folders) {
             return;
         }
         response.writeHead(200, { 'Content-Type': types[path.extname(file)] ?? 'application/octet-stream', 'Cache-Control': 'no-store' });
-        fs.createReadStream(file).pipe(response);
+        const bytes = fs.createReadStream(file);
+        if (line) Readable.from(paced(bytes, line)).pipe(response);
+        else bytes.pipe(response);
     });
     await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
     return server;

@@ -23,6 +23,7 @@ export class Fineness {
     if (!done && ms < kLost) return false;
     this.gl.deleteSync(this.fence);
     this.fence = null;
+    if (!this.down && this.shown === 1) this.known = ms > kSlow ? Math.max(kLeast, Math.sqrt(kGoal / ms)) : 1; // for the next drag
     if (!this.down) return true;
     if (ms > kSlow) this.share = Math.max(kLeast, this.share * Math.max(0.5, Math.sqrt(kGoal / ms)));
     else if (ms < kFast) this.share = Math.min(1, this.share * 1.1);

@@ -27,13 +27,12 @@ float limnShadow(const in highp sampler2DArray maps, vec2 low, float size, vec2 
 }
 
 /** \`v\`: from the lamp to the surface. Faces are 3 by 2 to a layer. */
-float limnPointShadow(vec3 v, int layer) {
+float limnPointShadow(vec3 v, int layer, float size) {
   vec3 a = abs(v);
   vec2 st, face;
   if (a.x >= a.y && a.x >= a.z) { st = vec2(v.x > 0.0 ? v.z : -v.z, v.y) / a.x; face = vec2(v.x > 0.0 ? 0 : 1, 0); }
   else if (a.y >= a.z) { st = vec2(v.y > 0.0 ? v.x : -v.x, v.z) / a.y; face = v.y > 0.0 ? vec2(2, 0) : vec2(0, 1); }
   else { st = vec2(v.z > 0.0 ? -v.x : v.x, v.y) / a.z; face = vec2(v.z > 0.0 ? 1 : 2, 1); }
-  float size = float(textureSize(limnNear, 0).x / 3);
   return limnShadow(limnNear, face * size, size, (st * 0.5 + 0.5) * size, layer, length(v) * 0.999 / limnFar);
 }
 
@@ -65,15 +64,14 @@ const loop = `
     }
     if (!(lit > 0.0) || dot(limnNormal, v) >= 0.0) continue;
     // A surface looks up its shadow one and a half texels in front of itself.
-    float near = float(textureSize(limnNear, 0).y);
-    float texel = kind == ${LightKind.directional} ? limnSunTexel : distance * (kind == ${LightKind.spot} ? 2.0 * d.z / near : 4.0 / near);
+    float texel = kind == ${LightKind.directional} ? limnSunTexel : distance * (kind == ${LightKind.spot} ? d.z : 2.0) / d.w;
     vec3 place = limnPlace + limnNormal * (1.5 * texel);
     if (layer < 0) {} // there are no maps for so many
-    else if (kind == ${LightKind.point}) lit *= limnPointShadow(place - a.xyz, layer);
+    else if (kind == ${LightKind.point}) lit *= limnPointShadow(place - a.xyz, layer, d.w);
     else {
       vec4 clip = mat4(texelFetch(limnLamps, ivec2(4, k), 0), texelFetch(limnLamps, ivec2(5, k), 0), texelFetch(limnLamps, ivec2(6, k), 0),
         texelFetch(limnLamps, ivec2(7, k), 0)) * vec4(place, 1.0);
-      if (kind == ${LightKind.spot}) lit *= limnMapShadow(limnNear, near, clip, layer, length(place - a.xyz) * 0.999 / limnFar);
+      if (kind == ${LightKind.spot}) lit *= limnMapShadow(limnNear, 2.0 * d.w, clip, layer, length(place - a.xyz) * 0.999 / limnFar);
       else lit *= limnMapShadow(limnSuns, float(textureSize(limnSuns, 0).x), clip, layer, clip.z * 0.5 + 0.5 - 1e-4);
     }
     directLight.color = c.rgb * lit;
@@ -107,8 +105,11 @@ export class LampLight {
     material.customProgramCacheKey = () => `limn${key}`;
   }
 
-  /** Brings the numbers and shadow maps up to the lamps' state. Maps are drawn where a lamp or the number of maps has changed. */
-  update(lamps) {
+  /**
+   * Brings the numbers and shadow maps up to the lamps' state. Maps are drawn where a lamp or the number of maps has changed, with a
+   * quarter of the texels a side if they have to be drawn `quickly`.
+   */
+  update(lamps, quickly = false) {
     const lit = lamps.filter((l) => l.lights[0].kind !== LightKind.rectangle);
     const near = lit.filter((l) => l.lights[0].kind !== LightKind.directional), suns = lit.filter((l) => !near.includes(l));
     if (this.maps.near.reserve(near.length)) near.forEach((l) => this.drawn.delete(l));
@@ -117,7 +118,7 @@ export class LampLight {
     for (const lamp of lit) {
       const l = lamp.lights[0], place = (near.includes(lamp) ? near : suns).indexOf(lamp);
       const layer = place < kMaxLayers ? place : -1;
-      if (l.on && l.strength > 0) this.write(row++, l, layer, layer < 0 ? null : this.matrixOf(lamp, l, layer));
+      if (l.on && l.strength > 0) this.write(row++, l, layer, layer < 0 ? null : this.mapOf(lamp, l, layer, quickly));
     }
     for (const lamp of this.drawn.keys()) if (!lit.includes(lamp)) this.drawn.delete(lamp);
     this.uniforms.limnLampCount.value = row;
@@ -125,20 +126,22 @@ export class LampLight {
     this.texture.needsUpdate = true;
   }
 
-  /** The matrix of a lamp's shadow map, drawn again where it shows something else. */
-  matrixOf(lamp, l, layer) {
+  /** A lamp's shadow map: its matrix and texels a cube face's side. Drawn again where it shows something else, or too coarsely. */
+  mapOf(lamp, l, layer, quickly) {
     const place = [l.position, l.direction, l.outerAngle, layer].join(), known = this.drawn.get(lamp);
-    if (known?.place === place) return known.matrix;
+    const texels = this.maps.near.texels / (quickly ? 4 : 1);
+    if (known?.place === place && known.texels >= texels) return known;
     const position = new THREE.Vector3(...l.position), along = new THREE.Vector3(...l.direction);
-    const matrix = l.kind === LightKind.point ? this.maps.point(layer, position)
-      : l.kind === LightKind.spot ? this.maps.spot(layer, position, along, l.outerAngle) : this.maps.sun(layer, along);
-    this.drawn.set(lamp, { place, matrix });
-    return matrix;
+    const matrix = l.kind === LightKind.point ? this.maps.point(layer, position, texels)
+      : l.kind === LightKind.spot ? this.maps.spot(layer, position, along, l.outerAngle, texels) : this.maps.sun(layer, along);
+    this.drawn.set(lamp, { place, matrix, texels });
+    return this.drawn.get(lamp);
   }
 
-  write(row, l, layer, matrix) {
+  write(row, l, layer, map) {
     const inner = Math.max(Math.cos(l.innerAngle), Math.cos(l.outerAngle) + 1e-4);
     this.data.set([...l.position, l.kind, ...l.direction, l.range, ...l.color.map((v) => v * l.strength), layer,
-      inner, Math.cos(l.outerAngle), Math.tan(Math.min(l.outerAngle + 0.01, 1.53)), 0, ...(matrix?.elements ?? new Array(16).fill(0))], 4 * kTexels * row);
+      inner, Math.cos(l.outerAngle), Math.tan(Math.min(l.outerAngle + 0.01, 1.53)), map?.texels ?? 0, ...(map?.matrix?.elements ?? [])],
+      4 * kTexels * row);
   }
 }

@@ -172,15 +172,19 @@ async function start() {
   resize();
 
   const sentence = () => {
-    const { latest } = light, speed = `${short(state.lightMs)} ms per bounce · ${Math.round(state.framesPerSecond)} frames/s`;
+    const { latest } = light, speed = `${short(state.lightMs)} ms per bounce` +
+      (state.framesPerSecond > 0 ? ` · ${short(state.framesPerSecond)} frames/s` : '');
     return latest?.early ? `Stopped after ${latest.bounces} bounces: ${(100 * latest.missing).toFixed(1)} % of light may be missing` : speed;
   };
   function frame(now) {
     const ready = fineness.ready(now);
-    if (ready && fineness.changed(now)) resize();
+    if (ready && fineness.changed(now)) {
+      resize();
+      lampsChanged = true;
+    }
     if (ready && lampsChanged) {
       lampsChanged = false;
-      lampLight.update(lamps);
+      lampLight.update(lamps, fineness.share < 1);
     }
     if (ready && dirty) {
       dirty = false;

@@ -123,15 +123,15 @@ export class ShadowMaps {
     return new THREE.Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
   }
 
-  point(layer, position) {
-    const s = this.near.texels;
+  /** `s`: texels of a cube face's side, at most those of `near`. */
+  point(layer, position, s) {
     this.perspective.fov = 90;
     kFaces.forEach((face, f) =>
       this.draw(this.near, layer, s * (f % 3), s * Math.floor(f / 3), s, this.perspective, position, new THREE.Vector3(...face), this.far));
   }
-  spot(layer, position, along, outerAngle) {
+  spot(layer, position, along, outerAngle, s) {
     this.perspective.fov = Math.min(2 * outerAngle * 180 / Math.PI + 1, 175);
-    return this.draw(this.near, layer, 0, 0, 2 * this.near.texels, this.perspective, position, along, this.far);
+    return this.draw(this.near, layer, 0, 0, 2 * s, this.perspective, position, along, this.far);
   }
   sun(layer, along) {
     return this.draw(this.suns, layer, 0, 0, this.suns.texels, this.parallel, this.centre.clone().addScaledVector(along, -this.extent), along, 0);
