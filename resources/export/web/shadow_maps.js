@@ -4,8 +4,8 @@
 import * as THREE from 'three';
 
 export const kMaxLayers = 256; // WebGL 2 has as many
-const kNear = [[2, 1024], [10, 512], [42, 256], [170, 128], [kMaxLayers, 64]]; // lamps at most, texels of a cube face's side
-const kSuns = [[4, 2048], [16, 1024], [64, 512], [kMaxLayers, 256]];
+const kNear = [[0, 1], [2, 1024], [10, 512], [42, 256], [170, 128], [kMaxLayers, 64]]; // lamps at most, texels of a cube face's side
+const kSuns = [[0, 1], [1, 2048], [4, 2048], [16, 1024], [64, 512], [kMaxLayers, 256]];
 const kFaces = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
 
 /** What casts shadows, drawn as depth: as the distance to `eye` in units of its w, or the camera's depth where w is 0. */
@@ -75,16 +75,16 @@ export class Casters {
 /** A texture with a layer of shadow maps for each lamp. */
 class Layers {
   constructor(sizes, width, height) {
-    Object.assign(this, { sizes, width, height, capacity: 0, texels: 1, target: null });
+    Object.assign(this, { sizes, width, height, capacity: -1, texels: 1, target: null });
     this.texture = { value: null };
-    this.reserve(1);
+    this.reserve(0);
   }
   /** Makes room for `count` lamps. Returns whether all maps must be drawn again. */
   reserve(count) {
     const [capacity, texels] = this.sizes.find(([most]) => count <= most) ?? this.sizes.at(-1);
     if (capacity === this.capacity) return false;
     this.target?.dispose();
-    this.target = new THREE.WebGLArrayRenderTarget(this.width * texels, this.height * texels, capacity, {
+    this.target = new THREE.WebGLArrayRenderTarget(this.width * texels, this.height * texels, Math.max(capacity, 1), {
       minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter, generateMipmaps: false, depthBuffer: true });
     this.target.scissorTest = true;
     this.texture.value = this.target.texture;
