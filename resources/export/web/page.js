@@ -204,7 +204,7 @@ async function start() {
   requestAnimationFrame(frame);
   // For scripts that drive the page.
   window.limn = { THREE, scene, camera, orbit, renderer, lamps, lampLight, light, state, wanted, addLamp, removeLamp, sendLights, draw,
-    lightmap: () => shown, settled: () => light.settled() && !dirty && !lampsChanged };
+    lightmap: () => shown, settled: () => light.settled() && !dirty && !lampsChanged && !fineness.fence };
 }
 
 start().catch((error) => {
