@@ -9,6 +9,7 @@
 #include "engine/lightmap/plain_lightmap.h"
 #include "engine/math/horizon.h"
 #include "engine/math/sh.h"
+#include "engine/scene/dark_backs.h"
 #include "engine/shading/direct_light.h"
 #include "engine/shading/sampler.h"
 
@@ -145,11 +146,10 @@ glm::vec3 lightOfField(const FinalLightmapInput& in, const FinalLightmapOptions&
 
 } // namespace
 
-std::optional<FinalLightmap> makeFinalLightmap(const FinalLightmapInput& in,
+static std::optional<FinalLightmap> makeMarked(const FinalLightmapInput& in,
                                                const FinalLightmapOptions& options,
                                                const Progress& progress) {
     const LitTexelCount count{options.texels, options.maxSide, options.onePage};
-    progress.at("texels", 0);
     const BakeDensity density = findDensity(in.trace, in.layout.meshes, options.texels, progress);
     const ChartFactors factors = factorsByResidual(
         in.trace.scene(), in.layout.meshes, density.texels, count,
@@ -195,6 +195,16 @@ std::optional<FinalLightmap> makeFinalLightmap(const FinalLightmapInput& in,
         return std::nullopt;
     maker.finishHarmonics(irradiance, map);
     return map;
+}
+
+std::optional<FinalLightmap> makeFinalLightmap(const FinalLightmapInput& in,
+                                               const FinalLightmapOptions& options,
+                                               const Progress& progress) {
+    progress.at("texels", 0);
+    Scene marked = in.trace.scene();
+    leaveOutDarkBacks(marked);
+    const TraceScene trace(marked, in.trace); // shares its structure of static surfaces
+    return makeMarked({trace, in.layout, in.field, in.emitted}, options, progress);
 }
 
 } // namespace limn

@@ -51,6 +51,7 @@ struct FinalLightmap {
     std::size_t texels() const { return values.size() / layers; }
 };
 
+/// Backs that face sealed dark space get no texels, and points in it have no weight (dark_backs.h).
 /// Gathers light at points on the lit surface under each texel (gather_texels.h) and fits the
 /// texels to it, so that what a plain bilinear lookup shows has the least squared error
 /// (fit_texels.h). Returns std::nullopt when cancelled.

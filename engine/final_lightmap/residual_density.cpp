@@ -15,7 +15,7 @@ namespace {
 /// Errors are relative to the light of their chart, or to this part of the mean light where that is
 /// more; those below kFloor are taken to be as large. So a bright place that nobody may see takes
 /// no texels from a dim one.
-constexpr double kDim = 0.1, kFloor = 0.01;
+constexpr double kDim = 0.5, kFloor = 0.01;
 /// A trial has this part of the texels: its residual is larger and found faster.
 constexpr std::uint32_t kTrial = 2;
 constexpr double kMinChange = 0.7, kMaxChange = 2;

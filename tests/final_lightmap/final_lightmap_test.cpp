@@ -178,6 +178,28 @@ TEST(FinalLightmap, HasNoStripAtTheFootOfAWall) {
     EXPECT_LT(worst, 0.1 * mean);
 }
 
+/// A closed box of two sides stands on the floor: its inner sides and the floor below it are dark.
+TEST(FinalLightmap, LeavesSealedSpaceOut) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    Material sheet = lambert(glm::vec3(0.5f));
+    sheet.doubleSided = true;
+    b.addMaterial(sheet);
+    b.add(quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}));
+    b.add(box({-0.5f, -0.01f, -0.5f}, {0.5f, 1, 0.5f}, false, 1));
+    b.scene.sky.radiance = {1, 1, 1};
+    b.scene.cameras = {{.eye = {3, 1, 3}}};
+    const Lit lit(b.build(), glm::vec3(0));
+    const FinalLightmap map = lit.make({.texels = 3000});
+    EXPECT_EQ(map.layout.instances[1].backRows, 0U);
+    // Right beside the box, half of the sky is hidden: the floor is lit by it, and by the box.
+    for (const float x : {0.52f, 0.56f, 0.62f}) {
+        const Hit hit = lit.below({x, 0.5f, 0.1f});
+        const float truth = lit.truth(hit).x;
+        EXPECT_NEAR(lit.shown(map, hit)[0].x, truth, 0.05f * truth) << x;
+    }
+}
+
 TEST(FinalLightmap, DoesNotDependOnThreads) {
     const Lit lit(belowAPlate());
     const auto madeBy = [&](int threads) {
