@@ -49,7 +49,7 @@ TEST_F(Exporting, WritesTheLightThatTheDocumentAsksForAndSaysSo) {
     Session session(options());
     openBaked(session);
     const std::string path = folder.file("light.exr");
-    order(session, {.format = "lightmap", .detail = 1}, path);
+    order(session, {.format = "lightmap", .quality = LightmapQuality::Draft, .detail = 1}, path);
     ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
     EXPECT_TRUE(session.state.exporting.error.empty()) << session.state.exporting.error;
     EXPECT_NE(session.state.exporting.written.find("1 file"), std::string::npos);

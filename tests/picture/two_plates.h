@@ -46,6 +46,16 @@ struct TwoPlates {
         field.lightmap.assign(9 * 32, glm::vec4(0));
     }
 
+    /// Gives the back of the plate texels, below those of its front; setField() sets both.
+    void addBack() {
+        for (InstanceLightmap& instance : layout->instances)
+            for (glm::vec2& uv : instance.uv)
+                uv.y /= 2;
+        layout->instances[1].backRows = layout->height;
+        field.lightmapHeight = layout->height *= 2;
+        field.lightmap.assign(2 * field.lightmap.size(), glm::vec4(0));
+    }
+
     /// Lets constant radiance arrive from above a surface with unit normal `n`: on the plane
     /// (plate = 0) or on the plate (1).
     void setField(std::uint32_t plate, glm::vec3 n, glm::vec3 radiance) {
@@ -53,7 +63,8 @@ struct TwoPlates {
         const glm::vec3 first = pi * std::sqrt(3 / (4 * pi)) * glm::vec3(n.y, n.z, n.x);
         const std::uint32_t texels = field.lightmapWidth * field.lightmapHeight;
         for (std::uint32_t t = 0; t < texels; ++t) {
-            const bool ofPlate = t / 8 < 4 && t % 8 >= 4; // finer texels are the plane's
+            const std::uint32_t rows = layout->instances[1].backRows > 0 ? 8 : 4;
+            const bool ofPlate = t / 8 < rows && t % 8 >= 4; // finer texels are the plane's
             if (ofPlate != (plate == 1))
                 continue;
             field.lightmap[t] = glm::vec4(std::sqrt(pi) * radiance, 0);

@@ -127,6 +127,8 @@ TEST_F(ViewportNearLight, IsFoundOnBacksAndMirroredInstances) {
     for (const bool twoSided : {false, true}) {
         TwoPlates plates(simple::quad({-2, 0, 0}, {0, 4, 0}, {4, 0, 0}, 1)); // faces away
         plates.builder.scene.materials[1].doubleSided = twoSided;
+        if (twoSided)
+            plates.addBack();
         plates.builder.scene.instances[0].toWorld = glm::scale(glm::mat4(1), glm::vec3(-1, 1, 1));
         plates.builder.scene.instances[0].normalToWorld =
             glm::mat3(glm::vec3(1, 0, 0), glm::vec3(0, -1, 0), glm::vec3(0, 0, -1)) * -1.f;
