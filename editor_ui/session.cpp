@@ -379,10 +379,14 @@ void Session::takeExported() {
         return;
     }
     std::uint64_t bytes = 0;
-    for (const ExportedFile& file : **result)
+    std::string error;
+    for (const ExportedFile& file : **result) {
         bytes += file.bytes;
-    state.exporting.written = fmt::format("Wrote {} file{}, {}", (*result)->size(),
-                                          (*result)->size() == 1 ? "" : "s", bytesText(bytes));
+        error += errorText(file);
+    }
+    state.exporting.written =
+        fmt::format("Wrote {} file{}, {}{}", (*result)->size(), (*result)->size() == 1 ? "" : "s",
+                    bytesText(bytes), error);
     log(LogLine::Level::Info, fmt::format("{} to {}", state.exporting.written, m_exportingTo));
 }
 

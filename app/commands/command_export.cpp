@@ -131,12 +131,6 @@ std::string lightmapText(const ExportForecast& f) {
     return fmt::format(", lightmap of {}{} x {} texels", pages, f.width, f.height);
 }
 
-/// ", nRMSE .031, bias +0.2 %"; empty without an error.
-std::string errorText(const std::optional<Comparison>& error) {
-    return error ? fmt::format(", nRMSE {:.3f}, bias {:+.1f} %", error->nrmse, 100 * error->bias)
-                 : std::string();
-}
-
 Json forecastJson(const ExportForecast& forecast) {
     return {{"bytes", forecast.bytes},
             {"pages", forecast.pages},
@@ -217,7 +211,7 @@ Exit runExport(const ExportCommand& options) {
         fmt::print("{}\n", reportJson(**format, forecast, *files, seconds).dump());
     else
         for (const ExportedFile& file : *files)
-            fmt::print("{:<40} {}{}\n", file.name, bytesText(file.bytes), errorText(file.error));
+            fmt::print("{:<40} {}{}\n", file.name, bytesText(file.bytes), errorText(file));
     return Exit::Done;
 }
 

@@ -81,6 +81,12 @@ static std::string nameOf(const std::string& path) {
     return (p.has_filename() ? p : p.parent_path()).filename().string();
 }
 
+std::string errorText(const ExportedFile& file) {
+    if (!file.error)
+        return {};
+    return fmt::format(", nRMSE {:.3f}, bias {:+.1f} %", file.error->nrmse, 100 * file.error->bias);
+}
+
 Result<std::vector<ExportedFile>> exportLight(const std::string& path, const ExportFormat& format,
                                               const ExportScene& scene,
                                               const ExportSettings& settings,

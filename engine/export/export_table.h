@@ -33,6 +33,9 @@ struct ExportedFile {
     std::optional<Comparison> error = std::nullopt; ///< of the lightmap in it, where it is measured
 };
 
+/// ", nRMSE 0.031, bias +0.2 %", to follow the file's size; empty without an error.
+std::string errorText(const ExportedFile& file);
+
 /// Exports to `path` and returns the files written, the main file first. Formats hold a lightmap
 /// and a grid: fails with the name of any other part of the field.
 Result<std::vector<ExportedFile>> exportLight(const std::string& path, const ExportFormat& format,
