@@ -5,6 +5,10 @@
 
 namespace limn {
 
+/// Weight of a texel that has no surface inside, and is known by the closest point of one. That
+/// point stands for next to no area; at the edge of a moulding it may look through a crack.
+static constexpr float kClosestWeight = 0.02f;
+
 std::vector<FittedPoint> fittedPoints(const LitTexels& lit) {
     std::vector<FittedPoint> points;
     for (std::uint32_t t = 0; t < lit.atlas.texels.size(); ++t)
@@ -27,7 +31,7 @@ TexelFitInput fitInput(const Scene& scene, const LitTexels& lit,
         const AtlasTexel& texel = lit.atlas.texels[p.texel];
         fit.points.push_back(lookUpTexels(lit, texel.instance, scene.instances[texel.instance].mesh,
                                           texel.points[p.point], texel.back != 0));
-        fit.weights.push_back(1 / float(texel.count));
+        fit.weights.push_back(texel.count == 1 ? kClosestWeight : 1 / float(texel.count));
     }
     const std::uint32_t width = lit.atlas.layout.width;
     for (std::uint32_t t = 0; t < lit.atlas.texels.size(); ++t) {

@@ -20,8 +20,8 @@ std::vector<FittedPoint> fittedPoints(const LitTexels& lit);
 /// That point, as a ray from above hits it.
 Hit hitOf(const Scene& scene, const LitTexels& lit, const FittedPoint& p);
 
-/// What texels are fitted to at those points. The points of a texel count as much as those of any
-/// other.
+/// What texels are fitted to at those points. The points of a texel together count as much as those
+/// of any other that has surface inside.
 TexelFitInput fitInput(const Scene& scene, const LitTexels& lit,
                        const std::vector<FittedPoint>& points);
 

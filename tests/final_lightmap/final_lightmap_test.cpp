@@ -200,6 +200,26 @@ TEST(FinalLightmap, LeavesSealedSpaceOut) {
     }
 }
 
+/// A strip of 5 mm below a ceiling that it touches, with a bright sky above: its border is no place
+/// to look from.
+TEST(FinalLightmap, ThinStripsDoNotSeeBeyondWhatTheyTouch) {
+    SceneBuilder b;
+    Material sheet = lambert(glm::vec3(0.5f));
+    sheet.doubleSided = true;
+    b.addMaterial(sheet);
+    b.add(quad({-2, 1, -2}, {4, 0, 0}, {0, 0, 4}));             // ceiling, facing down
+    b.add(quad({-1.5f, 0.995f, 0}, {3, 0, 0}, {0, 0.005f, 0})); // strip, facing +z
+    b.add(quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}));             // floor
+    b.scene.sky.radiance = {1, 1, 1};
+    b.scene.cameras = {{.eye = {0, 0.5f, 1}}};
+    const Lit lit(b.build(), glm::vec3(0.05f));
+    const FinalLightmap map = lit.make({.texels = 600});
+    const Hit hit = lit.trace.closestHit({{0.3f, 0.9975f, 0.5f}, {0, 0, -1}});
+    ASSERT_EQ(hit.instance, 1U);
+    const float truth = lit.truth(hit).x;
+    EXPECT_NEAR(lit.shown(map, hit)[0].x, truth, 0.15f * truth);
+}
+
 TEST(FinalLightmap, DoesNotDependOnThreads) {
     const Lit lit(belowAPlate());
     const auto madeBy = [&](int threads) {
