@@ -6,14 +6,10 @@
 #include "engine/lightmap/plain_lightmap.h"
 #include "engine/lightmap/texel_side.h"
 #include "engine/picture/gathered_light.h"
-#include "engine/scene/mesh/triangle_geometry.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 namespace limn {
 
@@ -63,27 +59,6 @@ LitTexels layLitTexels(const Scene& scene, const std::vector<MeshCharts>& charts
     return lit;
 }
 
-/// Moves points on the border of a triangle towards its middle, by up to a quarter of a texel. A
-/// strip thinner than a texel is known by points of its border, and what touches that border, as a
-/// ceiling touches a moulding, hides or shows light there that no other point gets.
-static void leaveBorders(const Scene& scene, AtlasTexel& texel) {
-    constexpr float kBorder = 1e-3f, kShift = 0.25f, kMaxPart = 0.1f;
-    const Instance& instance = scene.instances[texel.instance];
-    for (std::uint32_t k = 0; k < texel.count; ++k) {
-        MeshPoint& point = texel.points[k];
-        const glm::vec2 uv = point.barycentric;
-        if (std::min({uv.x, uv.y, 1 - uv.x - uv.y}) > kBorder)
-            continue;
-        const glm::vec2 middle(1 / 3.f);
-        const glm::vec3 way = trianglePoint(scene.meshOf(instance), point.triangle, middle) -
-                              trianglePoint(scene.meshOf(instance), point.triangle, uv);
-        const float length = glm::length(glm::mat3(instance.toWorld) * way);
-        const float part =
-            length > 0 ? std::min(kShift * texel.width / length, kMaxPart) : kMaxPart;
-        point.barycentric = glm::mix(uv, middle, part);
-    }
-}
-
 void findOpenTexels(const TraceScene& trace, LitTexels& lit, const Progress& progress) {
     const Atlas laid = lit.atlas;
     const std::uint32_t width = laid.layout.width;
@@ -94,7 +69,6 @@ void findOpenTexels(const TraceScene& trace, LitTexels& lit, const Progress& pro
     const bool done = parallelRanges(side.size(), kGrain, progress, "texels",
                                      [&](std::size_t begin, std::size_t end) {
                                          for (std::size_t t = begin; t < end; ++t) {
-                                             leaveBorders(trace.scene(), lit.atlas.texels[t]);
                                              side[t] = sides.choose(lit.atlas.texels[t]);
                                              lit.open[t] = side[t].open ? 1 : 0;
                                          }

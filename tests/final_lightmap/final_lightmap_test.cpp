@@ -2,6 +2,7 @@
 #include "engine/final_lightmap/final_lightmap.h"
 
 #include "engine/core/parallel.h"
+#include "engine/final_lightmap/fit_input.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/lightmap/charts.h"
 #include "engine/lightmap/plain_lightmap.h"
@@ -11,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 
@@ -200,24 +202,29 @@ TEST(FinalLightmap, LeavesSealedSpaceOut) {
     }
 }
 
-/// A strip of 5 mm below a ceiling that it touches, with a bright sky above: its border is no place
-/// to look from.
-TEST(FinalLightmap, ThinStripsDoNotSeeBeyondWhatTheyTouch) {
+/// Texels of a triangle that is thinner than they are, and drawn across them.
+LitTexels thinTexels(const Scene& scene) {
+    return layLitTexels(scene, {buildCharts(scene.meshOf(scene.instances[0]))}, {}, {.texels = 60},
+                        {});
+}
+Scene thinTriangle() {
     SceneBuilder b;
-    Material sheet = lambert(glm::vec3(0.5f));
-    sheet.doubleSided = true;
-    b.addMaterial(sheet);
-    b.add(quad({-2, 1, -2}, {4, 0, 0}, {0, 0, 4}));             // ceiling, facing down
-    b.add(quad({-1.5f, 0.995f, 0}, {3, 0, 0}, {0, 0.005f, 0})); // strip, facing +z
-    b.add(quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}));             // floor
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    b.add(flatShaded({{0, 0, 0}, {4, 0, -1}, {4, 0, -1.02f}}, 0));
     b.scene.sky.radiance = {1, 1, 1};
-    b.scene.cameras = {{.eye = {0, 0.5f, 1}}};
-    const Lit lit(b.build(), glm::vec3(0.05f));
-    const FinalLightmap map = lit.make({.texels = 600});
-    const Hit hit = lit.trace.closestHit({{0.3f, 0.9975f, 0.5f}, {0, 0, -1}});
-    ASSERT_EQ(hit.instance, 1U);
-    const float truth = lit.truth(hit).x;
-    EXPECT_NEAR(lit.shown(map, hit)[0].x, truth, 0.15f * truth);
+    return b.build();
+}
+
+TEST(FinalLightmap, TexelsWithoutSurfaceInsideCountForLittle) {
+    const Scene scene = thinTriangle();
+    LitTexels lit = thinTexels(scene);
+    lit.atlas.texels[3].count = 1;
+    const std::vector<FittedPoint> points = fittedPoints(lit);
+    const TexelFitInput input = fitInput(scene, lit, points);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const std::uint32_t count = lit.atlas.texels[points[p].texel].count;
+        EXPECT_FLOAT_EQ(input.weights[p], count == 1 ? 0.02f : 1 / float(count));
+    }
 }
 
 TEST(FinalLightmap, DoesNotDependOnThreads) {
