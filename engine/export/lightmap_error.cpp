@@ -2,6 +2,7 @@
 #include "engine/export/lightmap_error.h"
 
 #include "engine/core/parallel.h"
+#include "engine/lightmap/atlas.h"
 #include "engine/math/sh.h"
 #include "engine/measure/seen_points.h"
 #include "engine/reference/path.h"
@@ -19,18 +20,13 @@ namespace limn {
 
 namespace {
 
-/// A bilinear lookup of one layer, with coordinates clamped to the edge.
-glm::vec3 lookUpLayer(const LightmapImage& image, std::size_t layer, glm::vec2 uv) {
-    const glm::vec2 p = uv * glm::vec2(image.width, image.height) - 0.5f;
-    const glm::vec2 base = glm::floor(p), f = p - base;
-    const auto texel = [&](int x, int y) {
-        x = std::clamp(x, 0, int(image.width) - 1);
-        y = std::clamp(y, 0, int(image.height) - 1);
-        return image.rgb[(layer * image.height + std::size_t(y)) * image.width + std::size_t(x)];
-    };
-    const int x = int(base.x), y = int(base.y);
-    return glm::mix(glm::mix(texel(x, y), texel(x + 1, y), f.x),
-                    glm::mix(texel(x, y + 1), texel(x + 1, y + 1), f.x), f.y);
+/// What a lookup finds in one layer.
+glm::vec3 lookUpLayer(const LightmapImage& image, std::size_t layer, const Bilinear& lookup) {
+    const std::size_t first = layer * image.width * image.height;
+    glm::vec3 sum(0);
+    for (std::size_t k = 0; k < 4; ++k)
+        sum += lookup.weight[k] * image.rgb[first + lookup.texel[k]];
+    return sum;
 }
 
 /// What texels hold for unit irradiance.
@@ -75,11 +71,15 @@ std::optional<glm::vec3> lookUpExported(const Scene& scene, const LightmapLayout
     };
     const glm::vec2 uv = corner(0) * (1 - hit.u - hit.v) + corner(1) * hit.u + corner(2) * hit.v;
     const LightmapImage& image = images[side.page[charts.chartOfTriangle[hit.triangle]]];
+    LightmapLayout page; // its size alone
+    page.width = image.width;
+    page.height = image.height;
+    const Bilinear lookup = bilinearAt(page, uv);
     if (image.layers == 1)
-        return lookUpLayer(image, 0, uv);
+        return lookUpLayer(image, 0, lookup);
     std::array<glm::vec3, kIrradianceBands * kIrradianceBands> c{};
     for (std::size_t i = 0; i < image.layers; ++i)
-        c[i] = lookUpLayer(image, i, uv);
+        c[i] = lookUpLayer(image, i, lookup);
     return glm::max(shIrradiance(image.layers == 4 ? 2 : 3, c.data(), normal), glm::vec3(0));
 }
 

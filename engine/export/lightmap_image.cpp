@@ -2,9 +2,9 @@
 #include "engine/export/lightmap_image.h"
 
 #include "engine/core/parallel.h"
+#include "engine/final_lightmap/texel_lookups.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/math/sh.h"
-#include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/shading/direct_light.h"
 
 #include <algorithm>
@@ -55,17 +55,7 @@ struct TexelPoints {
 };
 
 Hit hitAt(const Scene& scene, const PlainTexel& t, glm::vec2 uv) {
-    const Instance& instance = scene.instances[t.instance];
-    const Mesh& mesh = scene.meshOf(instance);
-    Hit hit;
-    hit.instance = t.instance;
-    hit.triangle = t.triangle;
-    hit.u = uv.x;
-    hit.v = uv.y;
-    hit.position = glm::vec3(instance.toWorld * glm::vec4(trianglePoint(mesh, t.triangle, uv), 1));
-    hit.geometricNormal = glm::normalize(instance.normalToWorld * triangleNormal(mesh, t.triangle));
-    hit.frontFace = !t.back;
-    return hit;
+    return hitOfPoint(scene, t.instance, {t.triangle, uv}, t.back);
 }
 
 struct Evaluation {

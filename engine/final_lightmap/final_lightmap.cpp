@@ -15,7 +15,6 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <glm/common.hpp>

@@ -28,7 +28,7 @@ struct TexelFit::Solver {
 
 namespace {
 
-/// Fills a matrix row by row, which needs no memory beside it.
+/// Fills a sparse matrix row by row. This needs no memory besides that of the matrix.
 struct RowWriter {
     Matrix& rows;
     int row = 0;

@@ -19,10 +19,10 @@ namespace limn {
 
 namespace {
 
-constexpr std::size_t kMaxCoefficients3 = kIrradianceBands * kIrradianceBands;
+constexpr std::size_t kMaxHarmonics = kIrradianceBands * kIrradianceBands;
 
 /// Coefficients of the radiance that rays bring, in the two parts that are gathered.
-using PartHarmonics = std::array<std::array<glm::vec3, kMaxCoefficients3>, kDifferences>;
+using PartHarmonics = std::array<std::array<glm::vec3, kMaxHarmonics>, kDifferences>;
 
 /// Smallest cosine that irradiance is divided by. Directions are sampled in proportion to it, so
 /// that rays along the surface count for much, and have more noise than light.
@@ -41,7 +41,7 @@ struct HarmonicSink : PartSink {
         const float cosine = glm::dot(direction, normal);
         if (bands < 2 || !(cosine > 0))
             return;
-        std::array<float, kMaxCoefficients3> basis{};
+        std::array<float, kMaxHarmonics> basis{};
         shBasis(bands, direction, basis.data());
         for (std::size_t i = 0; i < std::size_t(bands * bands); ++i)
             harmonics[part][i] += irradiance * (basis[i] / std::max(cosine, kMinCosine));

@@ -14,14 +14,6 @@ namespace limn {
 
 namespace {
 
-/// The point of a triangle at fraction `s` along half-edge `e`, from its first corner.
-MeshPoint alongEdge(std::uint32_t e, float s) {
-    glm::vec3 weights(0);
-    weights[int(e % 3)] = 1 - s;
-    weights[int((e + 1) % 3)] = s;
-    return {e / 3, {weights.y, weights.z}};
-}
-
 struct SeamFinder {
     const Scene& scene;
     const LitTexels& lit;
@@ -38,7 +30,7 @@ struct SeamFinder {
     float texelsAlong(std::uint32_t instance, std::uint32_t mesh, std::uint32_t e) const {
         const LightmapLayout& layout = lit.atlas.layout;
         const auto uvAt = [&](float s) {
-            const MeshPoint p = alongEdge(e, s);
+            const MeshPoint p = pointOfEdge(e, s);
             return unsnappedUv(layout, instance, mesh, p.triangle, p.barycentric.x, p.barycentric.y,
                                false);
         };
@@ -55,7 +47,7 @@ struct SeamFinder {
         const bool twoSided = lit.atlas.layout.instances[instance].backRows > 0;
         for (std::uint32_t k = 0; k < count; ++k) {
             const float s = (float(k) + 0.5f) / float(count);
-            const MeshPoint first = alongEdge(a, s), second = alongEdge(b, 1 - s);
+            const MeshPoint first = pointOfEdge(a, s), second = pointOfEdge(b, 1 - s);
             if (glm::dot(normalOf(placed, first), normalOf(placed, second)) < kCosSmooth)
                 continue;
             for (const bool back : {false, true})

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lightmap/chart_places.h"
 
+#include "engine/core/disjoint_sets.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 #include <glm/common.hpp>
@@ -60,24 +60,6 @@ struct CellUse {
     auto key() const { return std::tuple(side, slab, cell.y, cell.x, piece); }
     bool sameRow(const CellUse& o) const {
         return side == o.side && slab == o.slab && cell.y == o.cell.y;
-    }
-};
-
-/// Union-find: sets that are joined pairwise and identified by their smallest member.
-struct DisjointSets {
-    std::vector<std::uint32_t> parent;
-
-    explicit DisjointSets(std::size_t count) : parent(count) {
-        std::iota(parent.begin(), parent.end(), 0U);
-    }
-    std::uint32_t find(std::uint32_t i) {
-        while (parent[i] != i)
-            i = parent[i] = parent[parent[i]];
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a), b = find(b);
-        parent[std::max(a, b)] = std::min(a, b);
     }
 };
 

@@ -21,10 +21,7 @@ struct SeamSums {
 
     /// Irradiance at fraction `s` along half-edge `e`, from its first corner.
     glm::vec3 irradianceAt(std::uint32_t instance, std::uint32_t e, float s, glm::vec3 n) const {
-        glm::vec3 weights(0);
-        weights[int(e % 3)] = 1 - s;
-        weights[int((e + 1) % 3)] = s;
-        const glm::vec2 uv(weights.y, weights.z);
+        const glm::vec2 uv = pointOfEdge(e, s).barycentric;
         const Instance& i = scene.instances[instance];
         const glm::vec3 p = i.toWorld * glm::vec4(trianglePoint(scene.meshOf(i), e / 3, uv), 1);
         return sampleIrradiance({field, layout, scene, instance, e / 3, uv.x, uv.y, p, n});

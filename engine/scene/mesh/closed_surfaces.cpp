@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/mesh/closed_surfaces.h"
 
+#include "engine/core/disjoint_sets.h"
 #include "engine/core/parallel.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -152,37 +152,20 @@ void forEachFold(Meshes meshes, const WeldedTriangles& welded, std::span<const H
     }
 }
 
-struct ShellFinder {
-    Meshes meshes;
-    std::vector<std::uint32_t> parent = {}; ///< per triangle: one of its shell, with a lower number
-
-    std::uint32_t find(std::uint32_t i) {
-        while (parent[i] != i)
-            i = parent[i] = parent[parent[i]];
-        return i;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = find(a), b = find(b);
-        parent[std::max(a, b)] = std::min(a, b);
-    }
-
-    /// Triangles of each closed shell.
-    std::vector<std::vector<ShellTriangle>> closedShells(const WeldedTriangles& welded);
-};
-
-std::vector<std::vector<ShellTriangle>> ShellFinder::closedShells(const WeldedTriangles& welded) {
+/// Triangles of each closed shell.
+std::vector<std::vector<ShellTriangle>> closedShells(Meshes meshes, const WeldedTriangles& welded) {
     const std::vector<HalfEdge> edges = sortedEdges(welded);
-    parent.resize(welded.triangle.size());
-    std::iota(parent.begin(), parent.end(), 0U);
+    DisjointSets sets(welded.triangle.size());
     forEachEdge(edges, [&](std::span<const HalfEdge> edge) {
-        forEachFold(meshes, welded, edge, [&](std::uint32_t a, std::uint32_t b) { join(a, b); });
+        forEachFold(meshes, welded, edge,
+                    [&](std::uint32_t a, std::uint32_t b) { sets.join(a, b); });
     });
-    std::vector<bool> open(parent.size()); // by the shell's first triangle
+    std::vector<bool> open(welded.triangle.size()); // by the shell's first triangle
     std::vector<std::pair<std::uint32_t, int>> balance;
     forEachEdge(edges, [&](std::span<const HalfEdge> edge) {
         balance.clear();
         for (const HalfEdge& half : edge)
-            balance.emplace_back(find(half.triangle), half.up ? 1 : -1);
+            balance.emplace_back(sets.find(half.triangle), half.up ? 1 : -1);
         std::ranges::sort(balance);
         int sum = 0;
         for (std::size_t i = 0; i < balance.size(); ++i) {
@@ -195,9 +178,9 @@ std::vector<std::vector<ShellTriangle>> ShellFinder::closedShells(const WeldedTr
         }
     });
     std::vector<std::vector<ShellTriangle>> shells;
-    std::vector<std::uint32_t> shellOf(parent.size());
-    for (std::uint32_t t = 0; t < parent.size(); ++t) {
-        const std::uint32_t first = find(t);
+    std::vector<std::uint32_t> shellOf(welded.triangle.size());
+    for (std::uint32_t t = 0; t < welded.triangle.size(); ++t) {
+        const std::uint32_t first = sets.find(t);
         if (open[first])
             continue;
         if (first == t) {
@@ -290,7 +273,7 @@ bool isBehind(std::span<const Mesh* const> meshes, const ClosedSurface& surface,
 std::vector<ClosedSurface> findClosedSurfaces(std::span<const Mesh* const> meshes) {
     constexpr double kLeastVolume = 1e-9; // of a cube as wide as the shell; below it is rounding
     std::vector<ClosedSurface> found, inward;
-    for (std::vector<ShellTriangle>& shell : ShellFinder{meshes}.closedShells(weld(meshes))) {
+    for (std::vector<ShellTriangle>& shell : closedShells(meshes, weld(meshes))) {
         const Bounds bounds = boundsOfShell(meshes, shell);
         const double volume = signedVolume(meshes, shell, glm::dvec3(bounds.centre()));
         const double width = glm::length(glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower));

@@ -74,4 +74,11 @@ std::vector<std::uint32_t> edgePartners(const Mesh& mesh, const Progress& progre
     return partner;
 }
 
+MeshPoint pointOfEdge(std::uint32_t e, float s) {
+    glm::vec3 weights(0);
+    weights[int(e % 3)] = 1 - s;
+    weights[int((e + 1) % 3)] = s;
+    return {e / 3, {weights.y, weights.z}};
+}
+
 } // namespace limn

@@ -3,6 +3,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/scene/mesh/mesh.h"
+#include "engine/scene/mesh/triangle_geometry.h"
 
 #include <cstdint>
 #include <vector>
@@ -21,5 +22,8 @@ inline constexpr std::uint32_t kNoEdge = ~0U;
 /// border, an edge of more than two triangles, or an edge of two triangles with opposite winding.
 /// Incomplete when cancelled.
 std::vector<std::uint32_t> edgePartners(const Mesh& mesh, const Progress& progress = {});
+
+/// The point at fraction `s`, in [0, 1], along half-edge `e`, from its first corner.
+MeshPoint pointOfEdge(std::uint32_t e, float s);
 
 } // namespace limn
