@@ -14,7 +14,6 @@
 #include <span>
 
 #include <fmt/format.h>
-#include <glm/common.hpp>
 #include <glm/gtc/constants.hpp>
 
 namespace limn {
@@ -23,7 +22,7 @@ namespace {
 
 constexpr std::size_t kMaxLayers = 9;
 
-/// Texels of a lightmap, layer after layer.
+/// Texels of a lightmap or one of its pages, layer after layer.
 struct Texels {
     std::uint32_t width = 0, height = 0;
     std::uint64_t layers = 1;
@@ -77,8 +76,78 @@ std::optional<float> unitOf(const Json& lightmap) {
     return std::nullopt;
 }
 
-/// A layout in which every vertex has its TEXCOORD_1.
-LightmapLayout layoutOf(const Scene& scene, glm::uvec2 size) {
+/// The files that a lightmap names, one for each page, in `folder`.
+Result<std::vector<std::string>> filesOf(const Json& lightmap, const std::string& folder) {
+    const std::string member = "asset.extras.limn.lightmap";
+    const bool several = lightmap.contains("uris");
+    const Json uris =
+        several ? lightmap["uris"] : Json::array({Json(lightmap["uri"])}); // the usual single one
+    if (!uris.isArray() || uris.empty())
+        return fail(member + ".uris: is not an array of texture files");
+    std::vector<std::string> files;
+    for (std::size_t page = 0; page < uris.size(); ++page) {
+        const std::string field =
+            several ? fmt::format("{}.uris[{}]", member, page) : member + ".uri";
+        if (!uris[page].isString())
+            return fail(field + ": is missing");
+        Result<std::string> file =
+            fileOfUri(folder, uris[page].get<std::string>(), FileReach::Folder);
+        if (!file)
+            return fail(field + ": " + file.error().message);
+        files.push_back(std::move(*file));
+    }
+    return files;
+}
+
+/// The texels of all pages, each below the one before.
+Result<Texels> readPages(const std::vector<std::string>& files, const MemoryBudget& memory) {
+    Result<Texels> first = readTexels(files.front(), memory);
+    if (!first || files.size() == 1)
+        return first;
+    Texels all{first->width, first->height * std::uint32_t(files.size()), first->layers, {}};
+    const std::size_t texels = std::size_t(first->width) * first->height;
+    if (all.height / files.size() != first->height ||
+        first->rgb.size() * sizeof(glm::vec3) > memory.maxBytes / files.size())
+        return fail(fmt::format("{}: {} textures of this size do not fit into memory",
+                                files.front(), files.size()));
+    all.rgb.resize(first->rgb.size() * files.size());
+    for (std::size_t page = 0; page < files.size(); ++page) {
+        Result<Texels> read = page == 0 ? std::move(first) : readTexels(files[page], memory);
+        if (!read)
+            return read;
+        if (read->width != all.width || read->rgb.size() != all.layers * texels)
+            return fail(fmt::format("{}: must be as large as the first texture", files[page]));
+        for (std::size_t l = 0; l < all.layers; ++l)
+            std::copy_n(read->rgb.begin() + std::ptrdiff_t(l * texels), texels,
+                        all.rgb.begin() + std::ptrdiff_t((l * files.size() + page) * texels));
+    }
+    return all;
+}
+
+/// The page that each material's lookups read.
+Result<std::vector<std::uint32_t>> pagesOf(const Json& gltf, const Scene& scene,
+                                           std::size_t pages) {
+    std::vector<std::uint32_t> page(scene.materials.size(), 0);
+    const Json& materials = gltf["materials"];
+    for (std::size_t m = 0; m < std::min(page.size(), materials.size()); ++m) {
+        const Json& named = materials[m]["extras"]["limn"]["lightmapPage"];
+        if (named.isNull())
+            continue;
+        const std::optional<std::uint32_t> number = named.integerWithin<std::uint32_t>();
+        if (!number || *number >= pages)
+            return fail(fmt::format("materials[{}].extras.limn.lightmapPage: {} is none of {} "
+                                    "textures",
+                                    m, named.dump(), pages));
+        page[m] = *number;
+    }
+    return page;
+}
+
+/// A layout in which every vertex has its TEXCOORD_1 on its material's page. Pages lie below each
+/// other; the halves of a page's outer texels, where a lookup would read the next page, too, show
+/// the texels' centres, as clamping to the edge does.
+LightmapLayout layoutOf(const Scene& scene, glm::uvec2 size,
+                        const std::vector<std::uint32_t>& pageOfMaterial, std::size_t pages) {
     LightmapLayout layout;
     layout.width = size.x;
     layout.height = size.y;
@@ -92,10 +161,13 @@ LightmapLayout layoutOf(const Scene& scene, glm::uvec2 size) {
         charts.chartSize = {glm::vec2(0)};
         layout.meshes.push_back(std::move(charts));
     }
+    const float half = 0.5f * float(pages) / float(size.y); // of a texel, on its page
     for (const Instance& instance : scene.instances) {
         InstanceLightmap place{scene.meshOf(instance).uv1, 0};
+        const float page = float(pageOfMaterial[instance.material]);
         for (glm::vec2& uv : place.uv)
-            uv = glm::clamp(uv, glm::vec2(0), glm::vec2(1));
+            uv = {std::clamp(uv.x, 0.f, 1.f),
+                  (page + std::clamp(uv.y, half, 1 - half)) / float(pages)};
         layout.instances.push_back(std::move(place));
     }
     return layout;
@@ -118,21 +190,18 @@ Result<BakedLight> readBakedLight(const std::string& path, const Scene& scene,
     if (!lightmap.isObject())
         return wrong("asset.extras.limn.lightmap: is missing; the file is no export with a "
                      "lightmap");
-    if (lightmap.contains("uris"))
-        return wrong("asset.extras.limn.lightmap.uris: a lightmap of several textures is not "
-                     "drawn; export it with a larger --max-size");
-    if (!lightmap["uri"].isString())
-        return wrong("asset.extras.limn.lightmap.uri: is missing");
     const std::optional<float> unit = unitOf(lightmap);
     if (!unit)
         return wrong("asset.extras.limn.lightmap.quantity: must be irradiance, "
                      "irradiance-over-pi or harmonics");
     const std::string folder = std::filesystem::path(path).parent_path().string();
-    const Result<std::string> file = fileOfUri(
-        folder.empty() ? "." : folder, lightmap["uri"].get<std::string>(), FileReach::Folder);
-    if (!file)
-        return wrong("asset.extras.limn.lightmap.uri: " + file.error().message);
-    const Result<Texels> texels = readTexels(*file, memory);
+    const Result<std::vector<std::string>> files = filesOf(lightmap, folder.empty() ? "." : folder);
+    if (!files)
+        return wrong(files.error().message);
+    const Result<std::vector<std::uint32_t>> pageOfMaterial = pagesOf(*gltf, scene, files->size());
+    if (!pageOfMaterial)
+        return wrong(pageOfMaterial.error().message);
+    const Result<Texels> texels = readPages(*files, memory);
     if (!texels)
         return tl::make_unexpected(texels.error());
     if (texels->layers != 1 && texels->layers != 4 && texels->layers != kMaxLayers)
@@ -140,7 +209,7 @@ Result<BakedLight> readBakedLight(const std::string& path, const Scene& scene,
                                  "or three bands",
                                  texels->layers));
     BakedLight light;
-    light.layout = layoutOf(scene, {texels->width, texels->height});
+    light.layout = layoutOf(scene, {texels->width, texels->height}, *pageOfMaterial, files->size());
     light.hasDirectLight =
         lightmap["includesDirectLight"].isBoolean() && lightmap["includesDirectLight"].get<bool>();
     const std::size_t count = std::size_t(texels->width) * texels->height;

@@ -13,7 +13,7 @@ namespace limn {
 
 /// The light of an exported scene, from the lightmap that its glTF file names.
 struct BakedLight {
-    /// Each vertex of a mesh lies at its TEXCOORD_1, without snaps.
+    /// Each vertex of a mesh lies at its TEXCOORD_1, without snaps. Textures lie below each other.
     LightmapLayout layout;
     /// A field whose irradiance is what a program reads from the lightmap: for harmonics that of
     /// the surface's normal, else the same for every normal.
@@ -23,8 +23,8 @@ struct BakedLight {
 
 /// Reads the light beside or named by the glTF file `path`, .gltf or .glb, that was imported as
 /// `scene`. Files are those of the file's own folder. Fails, with the file and what is wrong, where
-/// the file names no lightmap of Limn's, one that is divided over several textures, or one of
-/// radiance, from which irradiance does not follow.
+/// the file names no lightmap of Limn's, textures that differ in size, or a lightmap of radiance, from
+/// which irradiance does not follow.
 Result<BakedLight> readBakedLight(const std::string& path, const Scene& scene,
                                   const MemoryBudget& memory);
 

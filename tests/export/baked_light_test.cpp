@@ -7,12 +7,16 @@
 #include "engine/field/sample_field.h"
 #include "engine/gltf/gltf_import.h"
 #include "tests/core/temporary_folder.h"
+#include "tests/export/exported_room.h"
 #include "tests/export/known_light.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <random>
 #include <sstream>
+
+#include <nlohmann/json.hpp>
 
 namespace limn::baked_light_test {
 namespace {
@@ -107,6 +111,89 @@ TEST(BakedLight, SaysWhatIsWrong) {
     EXPECT_NE(messageWith("\"room-lightmap.exr\"", "\"../out.exr\"").find("lightmap.uri"),
               std::string::npos);
     EXPECT_NE(messageWith("\"room-lightmap.exr\"", "3").find("uri"), std::string::npos);
+}
+
+TEST(BakedLight, SaysWhatIsWrongWithSeveralTextures) {
+    const auto messageWith = [](const nlohmann::json& uris, const nlohmann::json& page) {
+        const Exported room({});
+        nlohmann::json json;
+        std::ifstream(room.path) >> json;
+        nlohmann::json& lightmap = json["asset"]["extras"]["limn"]["lightmap"];
+        lightmap.erase("uri");
+        lightmap["uris"] = uris;
+        json["materials"][0]["extras"]["limn"]["lightmapPage"] = page;
+        std::ofstream(room.path) << json;
+        const Result<BakedLight> light = room.light();
+        return light ? std::string() : light.error().message;
+    };
+    const nlohmann::json name = "room-lightmap.exr", two = {name, name};
+    EXPECT_EQ(messageWith(two, 1), "");
+    for (const nlohmann::json& uris : {nlohmann::json(7), nlohmann::json::array()})
+        EXPECT_NE(messageWith(uris, 0).find("lightmap.uris: is not"), std::string::npos);
+    EXPECT_NE(messageWith({name, 7}, 0).find("uris[1]: is missing"), std::string::npos);
+    for (const nlohmann::json& page : {nlohmann::json(2), nlohmann::json(-1), nlohmann::json("0")})
+        EXPECT_NE(messageWith(two, page).find("materials[0].extras.limn.lightmapPage"),
+                  std::string::npos);
+}
+
+/// The room's draft with textures of at most `maxSize` texels a side, imported again.
+struct ReadRoom {
+    ImportedScene imported;
+    Scene scene;
+    BakedLight light;
+
+    ReadRoom(const ExportedRoom& room, ExportSettings settings, const TemporaryFolder& folder,
+             const std::string& name) {
+        const std::string path = folder.file(name);
+        settings.quality = LightmapQuality::Draft;
+        const ExportFormat& format = *findExportFormat("gltf");
+        const auto files = format.write(room.view(), settings, name, {});
+        EXPECT_TRUE(files && writeExport(path, format, *files));
+        imported = *importGltf(path);
+        scene = flatten(imported.document, imported.assets);
+        const Result<BakedLight> read = readBakedLight(path, scene, {});
+        EXPECT_TRUE(read) << read.error().message;
+        light = *read;
+    }
+    glm::vec3 irradiance(const Hit& hit, glm::vec3 n) const {
+        return sampleIrradiance({light.field, light.layout, scene, hit.instance, hit.triangle,
+                                 hit.u, hit.v, hit.position, n});
+    }
+};
+
+TEST(BakedLight, ADividedLightmapShowsWhatAWholeOneDoes) {
+    auto assets = std::make_shared<Assets>();
+    Document document = roomDocument(*assets);
+    const ExportedRoom room(std::move(document), assets);
+    const TemporaryFolder folder;
+    for (const std::uint32_t bands : {1U, 2U}) {
+        const ExportSettings settings{.encoding = bands > 1 ? TextureEncoding::Ktx2Half
+                                                            : TextureEncoding::Exr,
+                                      .bands = bands};
+        ExportSettings divided = settings;
+        divided.maxSize = 64;
+        const ReadRoom whole(room, settings, folder, "whole.gltf"),
+            pages(room, divided, folder, "pages.gltf");
+        EXPECT_LE(pages.light.layout.width, divided.maxSize);
+        EXPECT_GT(pages.light.layout.height, divided.maxSize); // several textures
+        const TraceScene traceWhole(whole.scene), tracePages(pages.scene);
+        std::mt19937 rng(5);
+        std::normal_distribution<float> normal;
+        std::size_t compared = 0;
+        for (int k = 0; k < 2000; ++k) {
+            const glm::vec3 d = glm::normalize(glm::vec3(normal(rng), normal(rng), normal(rng)));
+            const Ray ray{{2, 2, 2.5f}, d, 0, 100};
+            const Hit a = traceWhole.closestHit(ray), b = tracePages.closestHit(ray);
+            ASSERT_EQ(bool(a), bool(b));
+            if (!a || !a.frontFace || glm::distance(a.position, b.position) > 1e-4f)
+                continue;
+            const glm::vec3 one = whole.irradiance(a, -d), other = pages.irradiance(b, -d);
+            ++compared;
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(one[c], other[c], 2e-3f * (1 + one[c])) << bands;
+        }
+        EXPECT_GT(compared, 1900U);
+    }
 }
 
 /// A quad that faces the camera, under an even sky of radiance 1: its irradiance is pi. Every texel
