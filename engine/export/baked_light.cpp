@@ -8,8 +8,10 @@
 #include "engine/json/json.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <numeric>
 #include <span>
 
@@ -173,9 +175,70 @@ LightmapLayout layoutOf(const Scene& scene, glm::uvec2 size,
     return layout;
 }
 
+/// Whether `back` is `front` turned round.
+bool isTurnedRound(const Mesh& front, const Mesh& back) {
+    if (back.positions != front.positions || back.indices.size() != front.indices.size())
+        return false;
+    for (std::size_t t = 0; t < front.triangleCount(); ++t) {
+        const auto [a, b, c] = front.triangle(t);
+        if (back.triangle(t) != std::array{a, c, b})
+            return false;
+    }
+    return true;
+}
+
+/// Rows of texels that lead from every vertex of one instance down to that of another.
+std::optional<std::uint32_t> rowsBetween(const LightmapLayout& layout, std::uint32_t front,
+                                         std::uint32_t back) {
+    constexpr float kNear = 0.01f; // texels
+    const std::vector<glm::vec2>&a = layout.instances[front].uv, &b = layout.instances[back].uv;
+    if (a.empty() || a.size() != b.size())
+        return std::nullopt;
+    const float rows = std::round((b[0].y - a[0].y) * float(layout.height));
+    const glm::vec2 size(float(layout.width), float(layout.height));
+    for (std::size_t v = 0; v < a.size(); ++v)
+        if (const glm::vec2 off = glm::abs((b[v] - a[v]) * size - glm::vec2(0, rows));
+            !(rows > 0) || off.x > kNear || off.y > kNear)
+            return std::nullopt;
+    return std::uint32_t(rows);
+}
+
+/// Exports write a two-sided surface as two one-sided ones in the same place, of which programs
+/// show the one that faces the eye. A ray may meet either, so both become one two-sided surface
+/// again.
+void joinSides(Scene& scene, LightmapLayout& layout) {
+    std::vector<Instance> instances;
+    std::vector<InstanceLightmap> places;
+    std::map<std::uint32_t, std::uint32_t> twoSided; // of a one-sided material
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        instances.push_back(scene.instances[i]);
+        places.push_back(layout.instances[i]);
+        const std::uint32_t next = i + 1;
+        if (next == scene.instances.size() || isTwoSided(scene, scene.instances[i]) ||
+            scene.instances[next].node != scene.instances[i].node ||
+            scene.instances[next].material != scene.instances[i].material ||
+            !isTurnedRound(scene.meshOf(scene.instances[i]), scene.meshOf(scene.instances[next])))
+            continue;
+        const std::optional<std::uint32_t> rows = rowsBetween(layout, i, next);
+        if (!rows)
+            continue;
+        const auto [entry, isNew] =
+            twoSided.try_emplace(instances.back().material, std::uint32_t(scene.materials.size()));
+        if (isNew) {
+            scene.materials.push_back(scene.materialOf(instances.back()));
+            scene.materials.back().doubleSided = true;
+        }
+        instances.back().material = entry->second;
+        places.back().backRows = *rows;
+        i = next;
+    }
+    scene.instances = std::move(instances);
+    layout.instances = std::move(places);
+}
+
 } // namespace
 
-Result<BakedLight> readBakedLight(const std::string& path, const Scene& scene,
+Result<BakedLight> readBakedLight(const std::string& path, Scene& scene,
                                   const MemoryBudget& memory) {
     const auto wrong = [&](const std::string& what) {
         return fail(fmt::format("{}: {}", path, what));
@@ -210,6 +273,7 @@ Result<BakedLight> readBakedLight(const std::string& path, const Scene& scene,
                                  texels->layers));
     BakedLight light;
     light.layout = layoutOf(scene, {texels->width, texels->height}, *pageOfMaterial, files->size());
+    joinSides(scene, light.layout);
     light.hasDirectLight =
         lightmap["includesDirectLight"].isBoolean() && lightmap["includesDirectLight"].get<bool>();
     const std::size_t count = std::size_t(texels->width) * texels->height;

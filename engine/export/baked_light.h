@@ -22,10 +22,11 @@ struct BakedLight {
 };
 
 /// Reads the light beside or named by the glTF file `path`, .gltf or .glb, that was imported as
-/// `scene`. Files are those of the file's own folder. Fails, with the file and what is wrong, where
-/// the file names no lightmap of Limn's, textures that differ in size, or a lightmap of radiance, from
-/// which irradiance does not follow.
-Result<BakedLight> readBakedLight(const std::string& path, const Scene& scene,
+/// `scene`, and joins the two sides of surfaces that were exported as two. Files are those of the
+/// file's own folder. Fails, with the file and what is wrong, where the file names no lightmap of
+/// Limn's, textures that differ in size, or a lightmap of radiance, from which irradiance does not
+/// follow.
+Result<BakedLight> readBakedLight(const std::string& path, Scene& scene,
                                   const MemoryBudget& memory);
 
 } // namespace limn

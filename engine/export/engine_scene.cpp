@@ -31,6 +31,7 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
     if (!around)
         return tl::make_unexpected(around.error());
     GltfOptions options{.pages = &map->pages,
+                        .cut = map->cut.get(),
                         .extras = std::move(around->json),
                         .packing = {.quantize = settings.quantize, .meshopt = settings.meshopt},
                         .reflections = std::move(around->ofInstance)};

@@ -82,12 +82,15 @@ Result<ExportedLightmap> finalLightmap(const ExportScene& scene, const ExportSet
                                  .bands = settings.bands};
     options.maxSide = settings.maxSize;
     options.onePage = pageCount == PageCount::One;
-    const std::optional<FinalLightmap> map = makeFinalLightmap(input, options, progress);
+    options.cutCharts = settings.format != "lightmap";
+    std::optional<FinalLightmap> map = makeFinalLightmap(input, options, progress);
     if (!map)
         return fail("cancelled");
     ExportedLightmap exported;
-    exported.pages = options.onePage ? onePage(scene.scene, map->layout, 1)
-                                     : lightmapPages(scene.scene, map->layout, 1, settings.maxSize);
+    exported.cut = std::make_shared<const CutScene>(std::move(map->cut));
+    const Scene& cut = exported.cut->scene;
+    exported.pages = options.onePage ? onePage(cut, map->layout, 1)
+                                     : lightmapPages(cut, map->layout, 1, settings.maxSize);
     for (std::uint32_t page = 0; page < exported.pages.count; ++page)
         exported.images.push_back(imageOfPage(*map, exported.pages, page));
     return exported;
@@ -129,7 +132,8 @@ static Result<WrittenLightmap> writeOnce(const ExportScene& scene, const ExportS
     Result<std::vector<ExportFile>> files = lightmapFiles(map->images, settings, stem);
     if (!files)
         return tl::make_unexpected(files.error());
-    WrittenLightmap written{.pages = std::move(map->pages),
+    WrittenLightmap written{.cut = map->cut,
+                            .pages = std::move(map->pages),
                             .first = {},
                             .files = std::move(*files),
                             .error = std::nullopt};
@@ -142,7 +146,7 @@ static Result<WrittenLightmap> writeOnce(const ExportScene& scene, const ExportS
         const std::uint32_t points = options.pointsPerSide * options.pointsPerSide;
         options.paths = std::max((settings.paths + points - 1) / points, 1U);
         const Result<Comparison> error =
-            lightmapError(scene, written.pages, *read, settings, options, progress);
+            lightmapError(scene, written, *read, settings, options, progress);
         if (!error && (settings.error > 0 || progress.cancelled()))
             return tl::make_unexpected(error.error());
         if (error)

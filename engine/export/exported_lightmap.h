@@ -5,8 +5,10 @@
 #include "engine/core/result.h"
 #include "engine/export/export_format.h"
 #include "engine/export/lightmap_image.h"
+#include "engine/final_lightmap/cut_scene.h"
 #include "engine/lightmap/lightmap_pages.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +17,8 @@ namespace limn {
 
 /// A lightmap as it is exported: where charts lie on its pages, and one image for each page.
 struct ExportedLightmap {
+    /// The scene whose vertices it belongs to; null: the exported one.
+    std::shared_ptr<const CutScene> cut;
     LightmapPages pages;
     std::vector<LightmapImage> images;
 };
@@ -30,6 +34,7 @@ Result<ExportedLightmap> exportedLightmap(const ExportScene& scene, const Export
 
 /// The files of such a lightmap, and its error where that is measured.
 struct WrittenLightmap {
+    std::shared_ptr<const CutScene> cut; ///< as ExportedLightmap::cut
     LightmapPages pages;
     LightmapImage first; ///< image of the first page without its texels, for lightmapJson()
     std::vector<ExportFile> files;

@@ -39,6 +39,12 @@ struct GltfScene {
     std::map<std::pair<std::uint32_t, Side>, Json> primitives; ///< without material and lightmap
     std::map<std::uint32_t, glm::mat4> toObject; ///< of a mesh, from its positions as stored
 
+    /// The scene of meshes and charts: where charts are cut, not the exported one.
+    const Scene& shapes() const { return options.cut ? options.cut->scene : in.scene; }
+    std::uint32_t meshOf(std::uint32_t instance) const { return shapes().instances[instance].mesh; }
+    const MeshCharts& chartsOf(std::uint32_t mesh) const {
+        return options.cut ? options.cut->charts[mesh] : in.layout.meshes[mesh];
+    }
     bool hasLightmap(std::uint32_t instance) const {
         return options.pages && instance < options.pages->instances.size() &&
                !options.pages->instances[instance][0].uv.empty();
@@ -75,10 +81,10 @@ const Json& GltfScene::primitive(std::uint32_t meshIndex, Side side) {
     const auto [known, isNew] = primitives.try_emplace({meshIndex, side});
     if (!isNew)
         return known->second;
-    const Mesh& mesh = in.scene.assets->meshes[meshIndex];
+    const Mesh& mesh = shapes().assets->meshes[meshIndex];
     const bool split = side != Side::Whole;
     const std::vector<std::uint32_t> source =
-        split ? in.layout.meshes[meshIndex].sourceVertex : std::vector<std::uint32_t>();
+        split ? chartsOf(meshIndex).sourceVertex : std::vector<std::uint32_t>();
     Json json;
     Json& attributes = json["attributes"];
     if (side == Side::Back) { // shares all but what turns round
@@ -105,8 +111,7 @@ const Json& GltfScene::primitive(std::uint32_t meshIndex, Side side) {
     attributes["NORMAL"] = buffer.addNormals(normals);
     if (!tangents.empty())
         attributes["TANGENT"] = buffer.addTangents(tangents);
-    const std::vector<std::uint32_t>& indices =
-        split ? in.layout.meshes[meshIndex].indices : mesh.indices;
+    const std::vector<std::uint32_t>& indices = split ? chartsOf(meshIndex).indices : mesh.indices;
     json["indices"] = buffer.addIndices(side == Side::Back ? turnedRound(indices) : indices,
                                         split ? source.size() : mesh.positions.size());
     return primitives[{meshIndex, side}] = std::move(json);
@@ -114,7 +119,7 @@ const Json& GltfScene::primitive(std::uint32_t meshIndex, Side side) {
 
 /// One side of an instance, whatever the pages of its charts.
 Json GltfScene::lightmapPrimitive(std::uint32_t instance, bool back) {
-    Json json = primitive(in.scene.instances[instance].mesh, back ? Side::Back : Side::Front);
+    Json json = primitive(meshOf(instance), back ? Side::Back : Side::Front);
     json["attributes"]["TEXCOORD_1"] =
         buffer.addTexCoords(options.pages->instances[instance][back].uv);
     if (!json["attributes"].contains("TEXCOORD_0")) // sets of coordinates are numbered without gaps
@@ -125,7 +130,7 @@ Json GltfScene::lightmapPrimitive(std::uint32_t instance, bool back) {
 /// The triangles of that primitive whose charts lie on a page; null if there is none.
 Json GltfScene::onPage(Json primitive, std::uint32_t instance, bool back, std::uint32_t page) {
     const std::vector<std::uint32_t>& pageOfChart = options.pages->instances[instance][back].page;
-    const MeshCharts& charts = in.layout.meshes[in.scene.instances[instance].mesh];
+    const MeshCharts& charts = chartsOf(meshOf(instance));
     std::vector<std::uint32_t> indices;
     for (std::size_t t = 0; t < charts.chartOfTriangle.size(); ++t)
         if (pageOfChart[charts.chartOfTriangle[t]] == page)
@@ -146,8 +151,7 @@ void GltfScene::addNode(std::uint32_t i, Json primitiveList) {
     if (object != in.document.objects.end())
         node["name"] = objectName(object->second);
     node["mesh"] = meshes.size();
-    if (const glm::mat4 toWorld = instance.toWorld * toObject[instance.mesh];
-        toWorld != glm::mat4(1))
+    if (const glm::mat4 toWorld = instance.toWorld * toObject[meshOf(i)]; toWorld != glm::mat4(1))
         node["matrix"] = matrixJson(toWorld);
     if (i < options.reflections.size() && options.reflections[i] > 0)
         node["extras"]["limn"]["reflection"] = options.reflections[i];
@@ -181,7 +185,7 @@ void GltfScene::addInstance(std::uint32_t i) {
     if (hasLightmap(i))
         return addLightmapped(i);
     const Instance& instance = in.scene.instances[i];
-    Json json = primitive(instance.mesh, Side::Whole);
+    Json json = primitive(meshOf(i), Side::Whole);
     json["material"] = materials.index(in.scene.materialOf(instance), instance.material, false, 0);
     addNode(i, Json::array({std::move(json)}));
 }

@@ -5,6 +5,7 @@
 #include "engine/core/result.h"
 #include "engine/export/export_format.h"
 #include "engine/export/gltf_buffer.h"
+#include "engine/final_lightmap/cut_scene.h"
 #include "engine/json/json.h"
 #include "engine/lightmap/lightmap_pages.h"
 
@@ -18,7 +19,8 @@ struct GltfOptions {
     /// Where TEXCOORD_1 leads, and which texture each material reads. Null: there is no lightmap,
     /// and two-sided surfaces stay as they are.
     const LightmapPages* pages = nullptr;
-    Json extras; ///< asset.extras.limn: what the light beside the file means
+    const CutScene* cut = nullptr; ///< whose meshes the pages belong to; null: the exported scene
+    Json extras;                   ///< asset.extras.limn: what the light beside the file means
     GltfPacking packing = {};
     /// extras.limn.reflection of each instance's node, unless it is 0. Empty: there is none.
     std::vector<std::uint32_t> reflections = {};

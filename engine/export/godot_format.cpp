@@ -211,8 +211,8 @@ Result<std::vector<ExportFile>> write(const ExportScene& scene, const ExportSett
         exportedLightmap(scene, ownSettings(settings), PageCount::One, progress);
     if (!map)
         return tl::make_unexpected(map.error());
-    Result<std::vector<ExportFile>> files =
-        gltfFiles(scene, {.pages = &map->pages, .extras = {}}, name, progress);
+    Result<std::vector<ExportFile>> files = gltfFiles(
+        scene, {.pages = &map->pages, .cut = map->cut.get(), .extras = {}}, name, progress);
     if (!files)
         return files;
     const std::string stem = stemOf(name);

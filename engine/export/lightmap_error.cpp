@@ -57,15 +57,15 @@ ImageF pixelMeans(const std::vector<glm::vec3>& values, const std::vector<std::u
 
 } // namespace
 
-std::optional<glm::vec3> lookUpExported(const Scene& scene, const LightmapLayout& layout,
+std::optional<glm::vec3> lookUpExported(const Scene& scene, const std::vector<MeshCharts>& meshes,
                                         const LightmapPages& pages,
-                                        const std::vector<LightmapImage>& images, const Hit& hit,
-                                        glm::vec3 normal) {
+                                        const std::vector<LightmapImage>& images,
+                                        const SurfaceHit& hit, glm::vec3 normal) {
     if (hit.instance >= pages.instances.size() || pages.instances[hit.instance][0].uv.empty())
         return std::nullopt;
     const std::array<LightmapPages::Side, 2>& sides = pages.instances[hit.instance];
     const LightmapPages::Side& side = !hit.frontFace && !sides[1].uv.empty() ? sides[1] : sides[0];
-    const MeshCharts& charts = layout.meshes[scene.instances[hit.instance].mesh];
+    const MeshCharts& charts = meshes[scene.instances[hit.instance].mesh];
     const auto corner = [&](std::size_t k) {
         return side.uv[charts.indices[3 * std::size_t(hit.triangle) + k]];
     };
@@ -83,7 +83,23 @@ std::optional<glm::vec3> lookUpExported(const Scene& scene, const LightmapLayout
     return glm::max(shIrradiance(image.layers == 4 ? 2 : 3, c.data(), normal), glm::vec3(0));
 }
 
-Result<Comparison> lightmapError(const ExportScene& scene, const LightmapPages& pages,
+/// What a program shows at a point of the exported scene.
+static std::optional<glm::vec3> shownAt(const ExportScene& scene, const WrittenLightmap& map,
+                                        const std::vector<LightmapImage>& images,
+                                        const SeenPoint& point) {
+    if (!map.cut)
+        return lookUpExported(scene.scene, scene.layout.meshes, map.pages, images, point.hit,
+                              point.surface.normal);
+    const CutScene& cut = *map.cut;
+    SurfaceHit hit = point.hit;
+    const MeshPoint p = cut.fromSource(hit.instance, {hit.triangle, {hit.u, hit.v}});
+    hit.triangle = p.triangle;
+    hit.u = p.barycentric.x;
+    hit.v = p.barycentric.y;
+    return lookUpExported(cut.scene, cut.charts, map.pages, images, hit, point.surface.normal);
+}
+
+Result<Comparison> lightmapError(const ExportScene& scene, const WrittenLightmap& map,
                                  const std::vector<LightmapImage>& images,
                                  const ExportSettings& settings,
                                  const LightmapErrorOptions& options, const Progress& progress) {
@@ -94,9 +110,7 @@ Result<Comparison> lightmapError(const ExportScene& scene, const LightmapPages& 
     std::vector<glm::vec3> shown;
     for (std::uint32_t i = 0; i < columns * options.height * side; ++i) {
         const std::optional<SeenPoint> p = findSeenPoint(scene.trace, rays, i, 1);
-        const std::optional<glm::vec3> value =
-            p ? lookUpExported(scene.scene, scene.layout, pages, images, p->hit, p->surface.normal)
-              : std::nullopt;
+        const std::optional<glm::vec3> value = p ? shownAt(scene, map, images, *p) : std::nullopt;
         if (!value)
             continue;
         points.push_back(*p);

@@ -26,17 +26,17 @@ struct LightmapErrorOptions {
 
 /// The value that a program finds in a lightmap at a point of a surface: a bilinear lookup at
 /// TEXCOORD_1, and, of harmonics, the irradiance at unit `normal`. std::nullopt where the instance
-/// has no lightmap.
-std::optional<glm::vec3> lookUpExported(const Scene& scene, const LightmapLayout& layout,
+/// has no lightmap. `scene` and `charts`, per mesh, are those that the pages belong to.
+std::optional<glm::vec3> lookUpExported(const Scene& scene, const std::vector<MeshCharts>& charts,
                                         const LightmapPages& pages,
-                                        const std::vector<LightmapImage>& images, const Hit& hit,
-                                        glm::vec3 normal);
+                                        const std::vector<LightmapImage>& images,
+                                        const SurfaceHit& hit, glm::vec3 normal);
 
-/// Compares what `images` show, one for each page, with path-traced light, in a picture of the
-/// quantity that texels hold. Each pixel is the mean over the points that it sees on surfaces with
-/// a lightmap. The two references do not count their own noise as an error. Fails where there is no
-/// such point or no light, and when cancelled.
-Result<Comparison> lightmapError(const ExportScene& scene, const LightmapPages& pages,
+/// Compares what `images` show, one for each page of `map`, with path-traced light, in a picture of
+/// the quantity that texels hold. Each pixel is the mean over the points that it sees on surfaces
+/// with a lightmap. The two references do not count their own noise as an error. Fails where there
+/// is no such point or no light, and when cancelled.
+Result<Comparison> lightmapError(const ExportScene& scene, const WrittenLightmap& map,
                                  const std::vector<LightmapImage>& images,
                                  const ExportSettings& settings,
                                  const LightmapErrorOptions& options, const Progress& progress);

@@ -47,11 +47,12 @@ glm::vec3 softDirect(const TraceScene& trace, const SurfacePoint& p, std::uint32
 struct FinalMaker {
     const FinalLightmapInput& in;
     const FinalLightmapOptions& options;
+    const CutScene& cut;
     const LitTexels& lit;
     const GatheredTexels& gathered;
     std::vector<FittedPoint> points;
 
-    Hit hitAt(const FittedPoint& p) const { return hitOf(in.trace.scene(), lit, p); }
+    Hit hitAt(const FittedPoint& p) const { return hitOf(in.trace.scene(), cut, lit, p); }
     glm::vec3 irradianceOf(const FittedPoint& p, std::uint32_t seed) const;
     std::vector<glm::vec3> coefficients(std::size_t i) const;
     void finishHarmonics(const std::vector<glm::vec3>& irradiance, FinalLightmap& map) const;
@@ -150,29 +151,31 @@ static std::optional<FinalLightmap> makeMarked(const FinalLightmapInput& in,
                                                const Progress& progress) {
     const LitTexelCount count{options.texels, options.maxSide, options.onePage};
     const BakeDensity density = findDensity(in.trace, in.layout.meshes, options.texels, progress);
-    const ChartFactors factors = factorsByResidual(
-        in.trace.scene(), in.layout.meshes, density.texels, count,
+    CutDensity laid = densityByResidual(
+        in.trace.scene(), in.layout.meshes, density.texels, count, options.cutCharts,
         [&](const Hit& hit) { return lightOfField(in, options, hit); }, progress);
-    LitTexels lit = layLitTexels(in.trace.scene(), in.layout.meshes, factors, count, progress);
-    findOpenTexels(in.trace, lit, progress);
+    const CutScene& cut = laid.cut;
+    LitTexels lit = layLitTexels(cut, laid.factors, count, progress);
+    findOpenTexels(in.trace, in.layout.meshes, cut, lit, progress);
     if (progress.cancelled())
         return std::nullopt;
     const GatherScene scene =
         gatherScene(in.trace, in.field, in.emitted, in.layout, options.raysPerSample);
     const std::optional<GatheredTexels> gathered =
-        gatherTexels(scene, lit, {.bands = options.bands, .seed = options.seed}, progress);
+        gatherTexels(scene, cut, lit, {.bands = options.bands, .seed = options.seed}, progress);
     if (!gathered)
         return std::nullopt;
-    const FinalMaker maker{in, options, lit, *gathered, fittedPoints(lit)};
+    const FinalMaker maker{in, options, cut, lit, *gathered, fittedPoints(lit)};
     progress.at("fit", 0);
     std::vector<glm::vec3> light(maker.points.size());
     parallelRanges(light.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
             light[p] = maker.irradianceOf(maker.points[p], mixBits(options.seed, std::uint32_t(p)));
     });
-    const TexelFit fit(fitInput(in.trace.scene(), lit, maker.points));
+    const TexelFit fit(fitInput(cut.scene, lit, maker.points));
     std::vector<glm::vec3> irradiance = fit.solve(light, meanOfTexels(lit, maker.points, light));
-    FinalLightmap map{.layout = lit.atlas.layout,
+    FinalLightmap map{.cut = laid.cut,
+                      .layout = lit.atlas.layout,
                       .texelAt = lit.texelAt,
                       .layers = options.bands > 1 ? options.bands * options.bands : 1,
                       .values = {},

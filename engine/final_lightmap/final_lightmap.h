@@ -3,6 +3,7 @@
 
 #include "engine/core/progress.h"
 #include "engine/field/indirect_field.h"
+#include "engine/final_lightmap/cut_scene.h"
 #include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/export_settings.h"
 #include "engine/trace/trace_scene.h"
@@ -18,7 +19,7 @@ namespace limn {
 /// The light from which a final lightmap is gathered.
 struct FinalLightmapInput {
     const TraceScene& trace;
-    const LightmapLayout& layout; ///< of the fields; its charts are those of the final lightmap
+    const LightmapLayout& layout; ///< of the fields; its charts are cut for the final lightmap
     const IndirectField& field;   ///< converged light
     const IndirectField& emitted; ///< Lighting::emittedField(), or a field without any light
 };
@@ -34,12 +35,16 @@ struct FinalLightmapOptions {
     /// 1: texels hold the quantity; 2 or 3: harmonics of incident radiance, whose irradiance at the
     /// surface's normal is that of the map with a single band.
     std::uint32_t bands = 1;
+    /// Cuts charts into pieces of different density, so that the map belongs to a mesh with more
+    /// triangles.
+    bool cutCharts = true;
     std::uint32_t raysPerSample = 4, seed = 1;
 };
 
 /// A lightmap for programs that look up texels bilinearly and know nothing of
 /// LightmapLayout::snaps.
 struct FinalLightmap {
+    CutScene cut;          ///< whose meshes the layout is of
     LightmapLayout layout; ///< without snaps
     /// Index of the texel at y * width + x, kNoTexel where no lookup reads any.
     std::vector<std::uint32_t> texelAt;

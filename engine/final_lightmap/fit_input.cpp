@@ -17,9 +17,10 @@ std::vector<FittedPoint> fittedPoints(const LitTexels& lit) {
     return points;
 }
 
-Hit hitOf(const Scene& scene, const LitTexels& lit, const FittedPoint& p) {
+Hit hitOf(const Scene& scene, const CutScene& cut, const LitTexels& lit, const FittedPoint& p) {
     const AtlasTexel& texel = lit.atlas.texels[p.texel];
-    return hitOfPoint(scene, texel.instance, texel.points[p.point], texel.back != 0);
+    return hitOfPoint(scene, texel.instance, cut.toSource(texel.instance, texel.points[p.point]),
+                      texel.back != 0);
 }
 
 TexelFitInput fitInput(const Scene& scene, const LitTexels& lit,

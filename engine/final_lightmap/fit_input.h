@@ -17,11 +17,11 @@ struct FittedPoint {
 /// The points of all open texels.
 std::vector<FittedPoint> fittedPoints(const LitTexels& lit);
 
-/// That point, as a ray from above hits it.
-Hit hitOf(const Scene& scene, const LitTexels& lit, const FittedPoint& p);
+/// That point of `scene`, before it was cut, as a ray from above hits it.
+Hit hitOf(const Scene& scene, const CutScene& cut, const LitTexels& lit, const FittedPoint& p);
 
 /// What texels are fitted to at those points. The points of a texel together count as much as those
-/// of any other that has surface inside.
+/// of any other that has surface inside. `scene` is the cut one.
 TexelFitInput fitInput(const Scene& scene, const LitTexels& lit,
                        const std::vector<FittedPoint>& points);
 

@@ -2,6 +2,7 @@
 #include "engine/final_lightmap/gather_texels.h"
 
 #include "engine/core/parallel.h"
+#include "engine/final_lightmap/fit_input.h"
 #include "engine/final_lightmap/texel_lookups.h"
 #include "engine/lightmap/plain_lightmap.h"
 #include "engine/picture/gather_stages.h"
@@ -82,6 +83,7 @@ struct PointOfTexel {
 
 struct TexelGather {
     const GatherScene& scene;
+    const CutScene& cut;
     const LitTexels& lit;
     const TexelGathering& how;
     GatherStages stages;
@@ -101,7 +103,7 @@ std::vector<PointOfTexel> TexelGather::pointsOf(std::uint32_t texel) const {
         return points;
     const AtlasTexel& t = lit.atlas.texels[texel];
     for (std::uint32_t k = 0; k < t.count; ++k) {
-        const Hit hit = hitOfPoint(scene.trace.scene(), t.instance, t.points[k], t.back != 0);
+        const Hit hit = hitOf(scene.trace.scene(), cut, lit, {texel, k});
         if (const std::optional<SurfacePoint> p = surfacePoint(scene.trace, hit))
             points.push_back({hit, *p});
     }
@@ -115,9 +117,7 @@ double TexelGather::meanLight() const {
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t t = 0; t < lit.open.size(); t += step) {
-        const AtlasTexel& texel = lit.atlas.texels[t];
-        const Hit hit =
-            hitOfPoint(scene.trace.scene(), texel.instance, texel.points[0], texel.back != 0);
+        const Hit hit = hitOf(scene.trace.scene(), cut, lit, {std::uint32_t(t), 0});
         const std::optional<SurfacePoint> p = surfacePoint(scene.trace, hit);
         if (lit.open[t] == 0 || !p)
             continue;
@@ -189,9 +189,11 @@ void addShrunk(const GatheredLight& light, ShrunkDifference shrunk, glm::uvec2 p
 
 } // namespace
 
-std::optional<GatheredTexels> gatherTexels(const GatherScene& scene, const LitTexels& lit,
-                                           const TexelGathering& how, const Progress& progress) {
+std::optional<GatheredTexels> gatherTexels(const GatherScene& scene, const CutScene& cut,
+                                           const LitTexels& lit, const TexelGathering& how,
+                                           const Progress& progress) {
     TexelGather gather{scene,
+                       cut,
                        lit,
                        how,
                        {how.samples, scene.raysPerSample, 0},

@@ -34,7 +34,8 @@ struct GatheredTexels {
 /// Gathers at the points of all open texels as FinalGather does for pixels: tiles of texels share a
 /// guide, and neighbours that LitTexels::shares connects share noise. Returns std::nullopt when
 /// cancelled.
-std::optional<GatheredTexels> gatherTexels(const GatherScene& scene, const LitTexels& lit,
-                                           const TexelGathering& how, const Progress& progress);
+std::optional<GatheredTexels> gatherTexels(const GatherScene& scene, const CutScene& cut,
+                                           const LitTexels& lit, const TexelGathering& how,
+                                           const Progress& progress);
 
 } // namespace limn

@@ -13,12 +13,39 @@
 
 namespace limn {
 
+/// The chart of a texel's points, or kMixedCharts.
+static std::uint32_t chartOf(const CutScene& cut, const AtlasTexel& texel) {
+    const std::vector<std::uint32_t>& charts =
+        cut.charts[cut.scene.instances[texel.instance].mesh].chartOfTriangle;
+    const std::uint32_t chart = charts[texel.points[0].triangle];
+    for (std::uint32_t k = 1; k < texel.count; ++k)
+        if (charts[texel.points[k].triangle] != chart)
+            return kMixedCharts;
+    return chart;
+}
+
 /// Whether texels are of one surface, and nothing stands between them.
-static bool areTogether(const SideFinder& sides, const Atlas& atlas,
+static bool areTogether(const SideFinder& sides, const CutScene& cut, const Atlas& atlas,
                         const std::vector<TexelSide>& side, std::uint32_t a, std::uint32_t b) {
     const AtlasTexel &x = atlas.texels[a], &y = atlas.texels[b];
-    return x.instance == y.instance && x.back == y.back && side[a].chart == side[b].chart &&
+    return x.instance == y.instance && x.back == y.back && chartOf(cut, x) == chartOf(cut, y) &&
            side[a].open && side[b].open && sides.sees(side[a].points[0], side[b].points[0]);
+}
+
+/// Keeps those points of a texel that its side has.
+static TexelSide chooseSide(const SideFinder& sides, const CutScene& cut, AtlasTexel& texel) {
+    AtlasTexel before = texel; // with its points in the scene before it was cut
+    for (std::uint32_t k = 0; k < texel.count; ++k)
+        before.points[k] = cut.toSource(texel.instance, texel.points[k]);
+    AtlasTexel kept = before;
+    TexelSide side = sides.choose(kept);
+    const AtlasTexel all = texel;
+    texel.count = kept.count;
+    for (std::uint32_t k = 0; k < kept.count; ++k) {
+        const auto* same = std::ranges::find(before.points, kept.points[k]);
+        texel.points[k] = all.points[std::size_t(same - before.points.begin())];
+    }
+    return side;
 }
 
 /// The longest side that has to fit into a texture.
@@ -44,12 +71,11 @@ static Atlas layAtlas(const Scene& scene, const std::vector<MeshCharts>& charts,
     }
 }
 
-LitTexels layLitTexels(const Scene& scene, const std::vector<MeshCharts>& charts,
-                       const ChartFactors& factors, const LitTexelCount& count,
+LitTexels layLitTexels(const CutScene& cut, const ChartFactors& factors, const LitTexelCount& count,
                        const Progress& progress) {
     LitTexels lit;
     progress.at("texels", 0);
-    lit.atlas = layAtlas(scene, charts, factors, count, progress);
+    lit.atlas = layAtlas(cut.scene, cut.charts, factors, count, progress);
     const LightmapLayout& layout = lit.atlas.layout;
     lit.texelAt.assign(std::size_t(layout.width) * layout.height, kNoTexel);
     for (std::uint32_t i = 0; i < lit.atlas.texels.size(); ++i)
@@ -59,17 +85,20 @@ LitTexels layLitTexels(const Scene& scene, const std::vector<MeshCharts>& charts
     return lit;
 }
 
-void findOpenTexels(const TraceScene& trace, LitTexels& lit, const Progress& progress) {
-    const Atlas laid = lit.atlas;
-    const std::uint32_t width = laid.layout.width;
+void findOpenTexels(const TraceScene& trace, const std::vector<MeshCharts>& charts,
+                    const CutScene& cut, LitTexels& lit, const Progress& progress) {
+    const LightmapLayout& layout = lit.atlas.layout;
+    const std::uint32_t width = layout.width;
     std::atomic<std::uint64_t> rays = 0;
-    const SideFinder sides{trace, laid, rays};
-    std::vector<TexelSide> side(laid.texels.size());
+    Atlas before; // of which the sides read the charts alone
+    before.layout.meshes = charts;
+    const SideFinder sides{trace, before, rays};
+    std::vector<TexelSide> side(lit.atlas.texels.size());
     constexpr std::size_t kGrain = 64;
     const bool done = parallelRanges(side.size(), kGrain, progress, "texels",
                                      [&](std::size_t begin, std::size_t end) {
                                          for (std::size_t t = begin; t < end; ++t) {
-                                             side[t] = sides.choose(lit.atlas.texels[t]);
+                                             side[t] = chooseSide(sides, cut, lit.atlas.texels[t]);
                                              lit.open[t] = side[t].open ? 1 : 0;
                                          }
                                      });
@@ -78,14 +107,15 @@ void findOpenTexels(const TraceScene& trace, LitTexels& lit, const Progress& pro
     parallelRanges(
         side.size(), kGrain, progress, "texels", [&](std::size_t begin, std::size_t end) {
             for (std::size_t t = begin; t < end; ++t) {
-                const std::uint32_t place = laid.texels[t].texel;
+                const std::uint32_t place = lit.atlas.texels[t].texel;
                 const auto sharesWith = [&](bool inside, std::uint32_t next, SharesNoise which) {
                     if (inside && lit.texelAt[next] != kNoTexel &&
-                        areTogether(sides, laid, side, std::uint32_t(t), lit.texelAt[next]))
+                        areTogether(sides, cut, lit.atlas, side, std::uint32_t(t),
+                                    lit.texelAt[next]))
                         lit.shares[place] |= which;
                 };
                 sharesWith(place % width + 1 < width, place + 1, WithRight);
-                sharesWith(place / width + 1 < laid.layout.height, place + width, WithBelow);
+                sharesWith(place / width + 1 < layout.height, place + width, WithBelow);
             }
         });
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/progress.h"
+#include "engine/final_lightmap/cut_scene.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/trace/trace_scene.h"
 
@@ -34,14 +35,14 @@ struct LitTexelCount {
 /// means 1.
 using ChartFactors = std::vector<std::vector<float>>;
 
-/// Lays texels for all static instances, in charts that `charts` gives per mesh. All are open, and
-/// none shares noise, until findOpenTexels(). Incomplete when cancelled.
-LitTexels layLitTexels(const Scene& scene, const std::vector<MeshCharts>& charts,
-                       const ChartFactors& factors, const LitTexelCount& count,
+/// Lays texels for all static instances of a cut scene. All are open, and none shares noise, until
+/// findOpenTexels(). Incomplete when cancelled.
+LitTexels layLitTexels(const CutScene& cut, const ChartFactors& factors, const LitTexelCount& count,
                        const Progress& progress);
 
-/// Finds which points of texels are open, and which neighbours share noise. Incomplete when
-/// cancelled.
-void findOpenTexels(const TraceScene& trace, LitTexels& lit, const Progress& progress);
+/// Finds which points of texels are open, and which neighbours share noise. `trace` and `charts`,
+/// per mesh, are those of the scene before it was cut. Incomplete when cancelled.
+void findOpenTexels(const TraceScene& trace, const std::vector<MeshCharts>& charts,
+                    const CutScene& cut, LitTexels& lit, const Progress& progress);
 
 } // namespace limn

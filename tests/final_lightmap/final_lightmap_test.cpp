@@ -55,9 +55,10 @@ struct Lit {
     }
     /// What a bilinear lookup shows in each layer.
     std::vector<glm::vec3> shown(const FinalLightmap& map, const Hit& hit) const {
+        const MeshPoint p = map.cut.fromSource(hit.instance, {hit.triangle, {hit.u, hit.v}});
         const glm::vec2 uv =
-            unsnappedUv(map.layout, hit.instance, scene.instances[hit.instance].mesh, hit.triangle,
-                        hit.u, hit.v, !hit.frontFace);
+            unsnappedUv(map.layout, hit.instance, map.cut.scene.instances[hit.instance].mesh,
+                        p.triangle, p.barycentric.x, p.barycentric.y, !hit.frontFace);
         const Bilinear lookup = bilinearAt(map.layout, uv);
         std::vector<glm::vec3> layers(map.layers);
         for (std::uint32_t l = 0; l < map.layers; ++l)
@@ -204,8 +205,8 @@ TEST(FinalLightmap, LeavesSealedSpaceOut) {
 
 /// Texels of a triangle that is thinner than they are, and drawn across them.
 LitTexels thinTexels(const Scene& scene) {
-    return layLitTexels(scene, {buildCharts(scene.meshOf(scene.instances[0]))}, {}, {.texels = 60},
-                        {});
+    return layLitTexels(cutScene(scene, {buildCharts(scene.meshOf(scene.instances[0]))}, {}), {},
+                        {.texels = 60}, {});
 }
 Scene thinTriangle() {
     SceneBuilder b;

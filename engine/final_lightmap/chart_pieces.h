@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "engine/final_lightmap/cut_mesh.h"
+
+#include <functional>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace limn {
+
+/// What a trial lightmap leaves at a point of a chart.
+struct ResidualSample {
+    glm::vec2 uv;    ///< in the chart's plane [object units]
+    float area = 0;  ///< that it stands for, relative
+    float light = 0; ///< grey
+    /// Grey squared error times the squared factor of its texels' density: what is left with a
+    /// factor of 1, where squared errors fall in proportion to the number of texels.
+    float squared = 0;
+    float floor = 0; ///< the same for a relative error below which none counts
+};
+
+/// Sums over samples.
+struct ResidualSums {
+    double area = 0, light = 0, squared = 0, floor = 0;
+    std::size_t count = 0;
+
+    void add(const ResidualSample& s);
+    /// Mean squared error with a factor of 1, relative to the light of the samples, or to `dim`
+    /// where that is more.
+    double relative(double dim) const;
+};
+
+/// Cuts a chart where its parts need different densities. To have the least squared error with a
+/// number of texels, a part of area A and squared error e per texel gets texels in proportion to A
+/// sqrt(e), as if it cost that much; cutting halves costs less where they differ, less the texels
+/// that both have along the cut. The pieces are those of least cost among all that halving a chart
+/// again and again makes. `texels`: texels per object unit that a piece of such a squared error
+/// gets. Sorts `samples`. Returns what each piece sums up to, by its number.
+std::vector<ResidualSums> cutIntoPieces(std::vector<ResidualSample>& samples, glm::vec2 chartSize,
+                                        double dim, const std::function<double(double)>& texels,
+                                        ChartCuts& cuts);
+
+} // namespace limn
