@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include <fmt/format.h>
@@ -217,6 +218,7 @@ Exit runExport(const ExportCommand& options) {
 
 void addSettingOptions(Command& command, ExportCommand& options) {
     const ExportSettings defaults;
+    std::map<std::string, Option> byKey;
     visitExportSettings(defaults, [&](const Setting& setting, const auto&, const auto&... limits) {
         if constexpr (sizeof...(limits) == 0)
             command.flag(
@@ -226,13 +228,17 @@ void addSettingOptions(Command& command, ExportCommand& options) {
                 },
                 setting.help);
         else
-            addSettingOption(
-                command, options.given, setting,
-                [](const std::string& named, const std::string& text) {
-                    ExportSettings scratch;
-                    return setExportSetting(scratch, named, text);
-                },
-                limits...);
+            byKey.emplace(setting.key, addSettingOption(
+                                           command, options.given, setting,
+                                           [](const std::string& named, const std::string& text) {
+                                               ExportSettings scratch;
+                                               return setExportSetting(scratch, named, text);
+                                           },
+                                           limits...));
+    });
+    visitExportSettings(defaults, [&](const Setting& setting, const auto&, const auto&...) {
+        if (setting.replaces)
+            byKey.at(setting.replaces).excludes(byKey.at(setting.key));
     });
 }
 

@@ -5,6 +5,7 @@
 #include "engine/export/lightmap_file.h"
 #include "engine/files/ktx2.h"
 #include "engine/final_lightmap/final_lightmap.h"
+#include "engine/scene/mesh/triangle_geometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,14 +44,31 @@ Result<ExportedLightmap> draftLightmap(const ExportScene& scene, const ExportSet
     return map;
 }
 
-/// Number of texels that a final lightmap is to have.
-std::uint32_t finalTexels(const LightmapLayout& layout, const ExportSettings& settings) {
+/// Area of all sides that have texels [m^2]; objects that ask for other densities than the rest
+/// count for as much as they get.
+double weightedArea(const ExportScene& scene) {
+    double area = 0;
+    for (std::size_t i = 0; i < scene.layout.instances.size(); ++i) {
+        const InstanceLightmap& place = scene.layout.instances[i];
+        const Instance& instance = scene.scene.instances[i];
+        if (!place.uv.empty())
+            area += worldArea(scene.scene, instance) * (place.backRows > 0 ? 2 : 1) *
+                    std::pow(double(instance.texelDensity), 2);
+    }
+    return area;
+}
+
+/// Number of texels that a final lightmap is to have; more than kMaxTexels where the density asks
+/// for them.
+double finalTexels(const ExportScene& scene, const ExportSettings& settings) {
+    if (settings.texelsPerMetre > 0)
+        return std::max(std::pow(double(settings.texelsPerMetre), 2) * weightedArea(scene), 1.0);
     if (settings.texels > 0)
         return settings.texels;
     const std::uint64_t draft =
-        std::uint64_t(layout.width) * layout.height * settings.detail * settings.detail;
+        std::uint64_t(scene.layout.width) * scene.layout.height * settings.detail * settings.detail;
     // About a tenth of an atlas lies between its charts.
-    return std::uint32_t(std::clamp<std::uint64_t>(draft * 9 / 10, 1, kMaxTexels));
+    return double(std::clamp<std::uint64_t>(draft * 9 / 10, 1, kMaxTexels));
 }
 
 LightmapImage imageOfPage(const FinalLightmap& map, const LightmapPages& pages,
@@ -73,10 +91,15 @@ Result<ExportedLightmap> finalLightmap(const ExportScene& scene, const ExportSet
                                        PageCount pageCount, const Progress& progress) {
     if (const Result<void> possible = checkLightmap(scene, settings); !possible)
         return tl::make_unexpected(possible.error());
+    const double texels = finalTexels(scene, settings);
+    if (texels > kMaxTexels)
+        return fail(fmt::format("--lightmap-texels-per-metre: {:g} would be {:.0f} texels, and {} "
+                                "are possible",
+                                settings.texelsPerMetre, texels, kMaxTexels));
     const IndirectField dark; // its emitted light is part of what is gathered as bounced light
     const FinalLightmapInput input{scene.trace, scene.layout, scene.field,
                                    scene.emitted ? *scene.emitted : dark};
-    FinalLightmapOptions options{.texels = finalTexels(scene.layout, settings),
+    FinalLightmapOptions options{.texels = std::uint32_t(texels),
                                  .quantity = settings.quantity,
                                  .direct = settings.direct,
                                  .bands = settings.bands};
@@ -166,13 +189,14 @@ Result<WrittenLightmap> writtenLightmap(const ExportScene& scene, const ExportSe
             written->error->nrmse <= double(settings.error))
             return written;
         const double nrmse = written->error->nrmse;
-        const std::uint32_t texels = finalTexels(scene.layout, settings);
+        const auto texels = std::uint32_t(finalTexels(scene, settings));
         if (nrmse > kMinGain * before || texels > kMaxTexels / 2)
             return fail(fmt::format("error: it is {:.3f} with {} texels, not {:g}, and more texels "
                                     "hardly reduce it",
                                     nrmse, texels, settings.error));
         before = nrmse;
         settings.texels = 2 * texels;
+        settings.texelsPerMetre = 0;
     }
 }
 
@@ -181,7 +205,7 @@ ExportForecast forecastLightmapOf(const ExportScene& scene, const ExportSettings
     if (settings.quality == LightmapQuality::Draft)
         return pageCount == PageCount::One ? forecastLightmap(scene.layout, settings)
                                            : forecastPages(scene, settings);
-    const double texels = double(finalTexels(scene.layout, settings)) / 0.9;
+    const double texels = std::min(finalTexels(scene, settings), double(kMaxTexels)) / 0.9;
     const auto side = std::uint32_t(std::ceil(std::sqrt(texels)));
     ExportForecast f{.width = std::min(side, settings.maxSize),
                      .height = std::min(side, settings.maxSize)};

@@ -14,9 +14,9 @@ namespace limn {
 namespace lightmap_format {
 
 static constexpr std::array<std::string_view, 2> kExtensions = {".exr", ".ktx2"};
-static constexpr std::array<std::string_view, 12> kSettings = {
-    "quality",  "texels", "error", "paths",  "encoding", "compress",
-    "quantity", "direct", "bands", "layers", "detail",   "maxSize"};
+static constexpr std::array<std::string_view, 13> kSettings = {
+    "quality",  "texels", "texelsPerMetre", "error",  "paths",  "encoding", "compress",
+    "quantity", "direct", "bands",          "layers", "detail", "maxSize"};
 
 /// The settings with the encoding that the file's extension asks for.
 static Result<ExportSettings> settingsFor(ExportSettings settings, const std::string& name) {

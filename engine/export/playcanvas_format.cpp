@@ -11,8 +11,8 @@ namespace limn {
 namespace playcanvas_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
-static constexpr std::array<std::string_view, 7> kSettings = {
-    "quality", "texels", "error", "paths", "direct", "detail", "maxSize"};
+static constexpr std::array<std::string_view, 8> kSettings = {
+    "quality", "texels", "texelsPerMetre", "error", "paths", "direct", "detail", "maxSize"};
 
 static constexpr std::uint32_t kReflections = 4;
 

@@ -31,8 +31,11 @@ std::string missingFor(const ExportSettings& settings, std::string_view key, boo
                          settings.encoding == TextureEncoding::Exr;
     if (key == "compress" && (onlyExr || !writesKtx2(settings)))
         return "--encoding ktx2-half or ktx2-rgb9e5, since EXR is not compressed with Zstandard";
-    if ((key == "texels" || key == "error") && settings.quality != LightmapQuality::Final)
+    if ((key == "texels" || key == "texelsPerMetre" || key == "error") &&
+        settings.quality != LightmapQuality::Final)
         return "--quality final";
+    if (key == "texels" && settings.texelsPerMetre > 0)
+        return "--lightmap-texels-per-metre 0";
     if (key == "layers" && settings.bands < 2)
         return "--lightmap-bands 2 or 3";
     return {};
@@ -41,10 +44,18 @@ std::string missingFor(const ExportSettings& settings, std::string_view key, boo
 std::string setExportSetting(ExportSettings& settings, std::string_view key,
                              const std::string& text) {
     std::string defect;
+    const char* replaced = nullptr;
     visitExportSettings(settings, [&](const Setting& setting, auto& value, const auto&... limits) {
-        if (setting.key == key)
-            defect = readValue(text, value, limits...);
+        if (setting.key != key)
+            return;
+        defect = readValue(text, value, limits...);
+        replaced = setting.replaces;
     });
+    if (defect.empty() && replaced)
+        visitExportSettings(settings, [&](const Setting& setting, auto& value, const auto&...) {
+            if (setting.key == std::string_view(replaced))
+                value = {};
+        });
     return defect;
 }
 

@@ -38,6 +38,9 @@ struct ExportSettings {
     LightmapQuality quality = LightmapQuality::Final;
     /// Number of texels of a final lightmap, about; 0: as many as `detail` gives a draft.
     std::uint32_t texels = 0;
+    /// > 0: takes the place of `texels`. So many texels along each metre of surface, on the mean
+    /// over all lit sides [1/m]; charts in which light varies more have more.
+    float texelsPerMetre = 0;
     float error = 0; ///< maximum nRMSE of the lightmap; 0: none is asked for
     /// Paths for each pixel of a picture in which the lightmap's error is measured, a quarter of
     /// them from each of four points, in each of two references; 0: it is not measured, unless
@@ -64,8 +67,8 @@ std::string settingsDefect(const ExportSettings& settings);
 /// Whether the export has KTX2 files. The grid is one whatever the encoding of the lightmap.
 bool writesKtx2(const ExportSettings& settings);
 
-/// Parses a value of the setting of that key, as setting_text.h does. Returns what is wrong with
-/// the text; empty: nothing.
+/// Parses a value of the setting of that key, as setting_text.h does, and sets the setting that it
+/// replaces to 0. Returns what is wrong with the text; empty: nothing.
 std::string setExportSetting(ExportSettings& settings, std::string_view key,
                              const std::string& text);
 

@@ -35,8 +35,19 @@ void visitExportSettings(S& s, const Visit& visit) {
                   .tooltip = "About the number of texels of a final lightmap. 0: as many as a "
                              "draft of this bake has",
                   .invalidates = Invalidates::Light,
+                  .replaces = "texelsPerMetre",
                   .applies = missingFor(s, "texels").empty()},
           s.texels, SettingRange{0, 1 << 24});
+    visit(Setting{.key = "texelsPerMetre",
+                  .flag = "--lightmap-texels-per-metre",
+                  .label = "Lightmap's density (texels/m)",
+                  .help = "Mean density of a final lightmap, instead of --texels; 0: none",
+                  .tooltip = "Texels along each metre of surface of a final lightmap, on the mean: "
+                             "charts in which light varies more have more [1/m]. 0: none is asked "
+                             "for",
+                  .invalidates = Invalidates::Light,
+                  .applies = missingFor(s, "texelsPerMetre").empty()},
+          s.texelsPerMetre, SettingRange{0, 1e6});
     visit(Setting{.key = "error",
                   .flag = "--error",
                   .label = "Largest error",

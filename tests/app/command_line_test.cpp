@@ -31,6 +31,8 @@ TEST_F(CommandLine, ExitsWith2OnBadUsage) {
                                   "bake cornell -o x --error 0",
                                   "bake cornell -o x --eye 0,1,2 --target 0,0,0",
                                   "bake cornell -o x --error 0.1 --texels-per-metre 3",
+                                  "export cornell --format gltf -o x.gltf --texels 9 "
+                                  "--lightmap-texels-per-metre 3",
                                   "reference cornell",
                                   "reference cornell -o x.exr --spp none",
                                   "reference cornell -o x.exr --view nonsense",

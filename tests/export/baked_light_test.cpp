@@ -3,6 +3,7 @@
 
 #include "engine/export/engine_formats.h"
 #include "engine/export/export_table.h"
+#include "engine/export/exported_lightmap.h"
 #include "engine/export/lightmap_error.h"
 #include "engine/field/sample_field.h"
 #include "engine/gltf/gltf_import.h"
@@ -213,6 +214,24 @@ Comparison errorOfMap(float irradiance) {
     options.width = options.height = 16;
     options.paths = 64;
     return *lightmapError(in, pages, images, {}, options, {});
+}
+
+TEST(ExportedLightmap, HasTheDensityThatIsAskedFor) {
+    const KnownLight light(constantLight); // its quad is 2 m wide
+    for (const float perMetre : {5.f, 20.f}) {
+        const Result<ExportedLightmap> map =
+            exportedLightmap(light.view(), {.texelsPerMetre = perMetre}, PageCount::Any, {});
+        ASSERT_TRUE(map) << map.error().message;
+        EXPECT_NEAR(float(map->pages.width), 2 * perMetre, 2);
+        EXPECT_NEAR(float(map->pages.height), 2 * perMetre, 2);
+        const ExportForecast forecast =
+            forecastLightmapOf(light.view(), {.texelsPerMetre = perMetre}, PageCount::Any);
+        EXPECT_NEAR(float(forecast.width), 2 * perMetre, 0.1f * 2 * perMetre + 1);
+    }
+    const auto refused =
+        exportedLightmap(light.view(), {.texelsPerMetre = 3000}, PageCount::Any, {});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("--lightmap-texels-per-metre"), std::string::npos);
 }
 
 TEST(LightmapError, IsThatOfTheTexels) {

@@ -45,6 +45,18 @@ TEST(ExportSettings, CompressionForThreeNeedsAGridOrAKtx2Lightmap) {
     EXPECT_NE(missingFor({.format = "gltf", .bands = 3}, "compress", kNoGrid), "");
 }
 
+TEST(ExportSettings, ADensityTakesThePlaceOfANumberOfTexels) {
+    ExportSettings settings{.texelsPerMetre = 8};
+    EXPECT_FALSE(applies(settings, "texels"));
+    EXPECT_EQ(setExportSetting(settings, "texels", "9"), "");
+    EXPECT_EQ(settings.texelsPerMetre, 0);
+    EXPECT_TRUE(applies(settings, "texels"));
+    EXPECT_EQ(setExportSetting(settings, "texelsPerMetre", "0.5"), "");
+    EXPECT_FALSE(applies(settings, "texels"));
+    settings.quality = LightmapQuality::Draft;
+    EXPECT_FALSE(applies(settings, "texelsPerMetre"));
+}
+
 TEST(ExportSettings, EveryOneHasAKeyAndAFlagOfItsOwn) {
     std::set<std::string> keys, flags;
     int count = 0;
