@@ -11,9 +11,9 @@ namespace limn {
 namespace babylon_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
-static constexpr std::array<std::string_view, 11> kSettings = {
-    "quality", "texels",   "texelsPerMetre", "error",  "paths",  "quantity",
-    "direct",  "quantize", "meshopt",        "detail", "maxSize"};
+static constexpr std::array<std::string_view, 12> kSettings = {
+    "quality",  "texels", "texelsPerMetre", "keepTriangles", "error",  "paths",
+    "quantity", "direct", "quantize",       "meshopt",       "detail", "maxSize"};
 
 static constexpr std::uint32_t kReflections = 4;
 

@@ -9,8 +9,9 @@ namespace limn {
 namespace blender_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
-static constexpr std::array<std::string_view, 8> kSettings = {
-    "quality", "texels", "texelsPerMetre", "error", "paths", "direct", "detail", "maxSize"};
+static constexpr std::array<std::string_view, 9> kSettings = {
+    "quality", "texels", "texelsPerMetre", "keepTriangles", "error",
+    "paths",   "direct", "detail",         "maxSize"};
 
 static ExportSettings ownSettings(ExportSettings settings) {
     settings.encoding = TextureEncoding::Exr;

@@ -105,7 +105,7 @@ Result<ExportedLightmap> finalLightmap(const ExportScene& scene, const ExportSet
                                  .bands = settings.bands};
     options.maxSide = settings.maxSize;
     options.onePage = pageCount == PageCount::One;
-    options.cutCharts = settings.format != "lightmap";
+    options.cutCharts = !settings.keepTriangles;
     std::optional<FinalLightmap> map = makeFinalLightmap(input, options, progress);
     if (!map)
         return fail("cancelled");

@@ -10,10 +10,10 @@ namespace limn {
 namespace gltf_format {
 
 static constexpr std::array<std::string_view, 2> kExtensions = {".gltf", ".glb"};
-static constexpr std::array<std::string_view, 15> kSettings = {
-    "quality",  "texels",   "texelsPerMetre", "error",  "paths",
-    "encoding", "compress", "quantity",       "direct", "bands",
-    "layers",   "quantize", "meshopt",        "detail", "maxSize"};
+static constexpr std::array<std::string_view, 16> kSettings = {
+    "quality",  "texels",   "texelsPerMetre", "keepTriangles", "error", "paths",
+    "encoding", "compress", "quantity",       "direct",        "bands", "layers",
+    "quantize", "meshopt",  "detail",         "maxSize"};
 
 static Result<std::vector<ExportFile>> write(const ExportScene& scene,
                                              const ExportSettings& settings,

@@ -27,8 +27,8 @@ namespace {
 
 constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
 constexpr std::uint32_t kRoomWidth = 256; ///< of what metal reflects [pixels]
-constexpr std::array<std::string_view, 7> kSettings = {
-    "quality", "texels", "texelsPerMetre", "bands", "direct", "detail", "maxSize"};
+constexpr std::array<std::string_view, 8> kSettings = {
+    "quality", "texels", "texelsPerMetre", "keepTriangles", "bands", "direct", "detail", "maxSize"};
 
 ExportSettings ownSettings(ExportSettings settings) {
     settings.bands = std::min(settings.bands, 2U); // its directional lightmaps have two

@@ -25,6 +25,7 @@ static Result<ExportSettings> settingsFor(ExportSettings settings, const std::st
         return fail(fmt::format("encoding: {} is written to {} files",
                                 kTextureEncodingNames[std::size_t(settings.encoding)],
                                 textureExtension(settings.encoding)));
+    settings.keepTriangles = true; // there is no mesh in the file that could have others
     return settings;
 }
 

@@ -11,8 +11,9 @@ namespace limn {
 namespace playcanvas_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
-static constexpr std::array<std::string_view, 8> kSettings = {
-    "quality", "texels", "texelsPerMetre", "error", "paths", "direct", "detail", "maxSize"};
+static constexpr std::array<std::string_view, 9> kSettings = {
+    "quality", "texels", "texelsPerMetre", "keepTriangles", "error",
+    "paths",   "direct", "detail",         "maxSize"};
 
 static constexpr std::uint32_t kReflections = 4;
 

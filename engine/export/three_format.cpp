@@ -12,9 +12,9 @@ namespace limn {
 namespace three_format {
 
 static constexpr std::array<std::string_view, 1> kExtensions = {".gltf"};
-static constexpr std::array<std::string_view, 13> kSettings = {
-    "quality", "texels", "texelsPerMetre", "error",   "paths",  "encoding", "compress",
-    "direct",  "bands",  "quantize",       "meshopt", "detail", "maxSize"};
+static constexpr std::array<std::string_view, 14> kSettings = {
+    "quality",  "texels", "texelsPerMetre", "keepTriangles", "error",   "paths",  "encoding",
+    "compress", "direct", "bands",          "quantize",      "meshopt", "detail", "maxSize"};
 
 static constexpr std::uint32_t kReflections = 4;
 

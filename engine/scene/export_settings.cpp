@@ -31,7 +31,7 @@ std::string missingFor(const ExportSettings& settings, std::string_view key, boo
                          settings.encoding == TextureEncoding::Exr;
     if (key == "compress" && (onlyExr || !writesKtx2(settings)))
         return "--encoding ktx2-half or ktx2-rgb9e5, since EXR is not compressed with Zstandard";
-    if ((key == "texels" || key == "texelsPerMetre" || key == "error") &&
+    if ((key == "texels" || key == "texelsPerMetre" || key == "keepTriangles" || key == "error") &&
         settings.quality != LightmapQuality::Final)
         return "--quality final";
     if (key == "texels" && settings.texelsPerMetre > 0)

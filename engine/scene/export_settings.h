@@ -41,6 +41,8 @@ struct ExportSettings {
     /// > 0: takes the place of `texels`. So many texels along each metre of surface, on the mean
     /// over all lit sides [1/m]; charts in which light varies more have more.
     float texelsPerMetre = 0;
+    /// A final lightmap has whole charts, so that exported meshes have no triangles of their own.
+    bool keepTriangles = false;
     float error = 0; ///< maximum nRMSE of the lightmap; 0: none is asked for
     /// Paths for each pixel of a picture in which the lightmap's error is measured, a quarter of
     /// them from each of four points, in each of two references; 0: it is not measured, unless

@@ -48,6 +48,16 @@ void visitExportSettings(S& s, const Visit& visit) {
                   .invalidates = Invalidates::Light,
                   .applies = missingFor(s, "texelsPerMetre").empty()},
           s.texelsPerMetre, SettingRange{0, 1e6});
+    visit(Setting{.key = "keepTriangles",
+                  .flag = "--keep-triangles",
+                  .label = "Triangles as they are",
+                  .help = "Cut no triangles for a final lightmap",
+                  .tooltip = "Exported meshes keep their triangles. Otherwise large surfaces are "
+                             "cut into pieces, so that a final lightmap has more texels where "
+                             "light varies",
+                  .invalidates = Invalidates::Light,
+                  .applies = missingFor(s, "keepTriangles").empty()},
+          s.keepTriangles);
     visit(Setting{.key = "error",
                   .flag = "--error",
                   .label = "Largest error",
