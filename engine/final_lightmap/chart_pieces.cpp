@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "engine/final_lightmap/chart_pieces.h"
 
+#include "engine/final_lightmap/crossing_line.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <span>
+
+#include <glm/common.hpp>
 
 namespace limn {
 
@@ -15,68 +19,105 @@ constexpr std::ptrdiff_t kMinSamples = 64;
 /// Cuts are worth it where they leave less than this part of the cost.
 constexpr double kWorth = 0.9;
 
-struct Rectangle {
-    glm::vec2 lower, upper;
-};
+using Samples = std::span<ResidualSample>;
+
+ResidualSums sumsOf(Samples samples) {
+    ResidualSums sums;
+    for (const ResidualSample& s : samples)
+        sums.add(s);
+    return sums;
+}
+
+/// Moves the samples below a cut to the front. Returns the first above.
+Samples::iterator divide(Samples samples, const ChartCuts::Node& cut) {
+    return std::partition(samples.begin(), samples.end(),
+                          [&](const ResidualSample& s) { return !cut.isAbove(s.uv); });
+}
 
 struct Cutter {
     double dim;
     const std::function<double(double)>& texels;
     std::vector<ChartCuts::Node>& nodes;
     std::vector<ResidualSums> pieces;
+    std::uint32_t parts = 0;
 
-    double costOf(const ResidualSums& sums, const Rectangle& r) const;
-    double cut(std::uint32_t node, std::span<ResidualSample> samples, const Rectangle& r);
+    double costOf(const ResidualSums& sums, glm::vec2 size) const;
+    std::uint32_t addChildren(std::uint32_t node, ChartCuts::Node cut);
+    double halve(std::uint32_t node, Samples samples);
+    void cut(std::uint32_t node, Samples samples, std::vector<glm::vec2> crossings);
 };
 
-double Cutter::costOf(const ResidualSums& sums, const Rectangle& r) const {
+double Cutter::costOf(const ResidualSums& sums, glm::vec2 size) const {
     const double squared = sums.relative(dim), perUnit = texels(squared);
     double border = 1; // texels per texel inside
     for (int k = 0; k < 2; ++k)
-        border *= 1 + 1 / std::max(double(r.upper[k] - r.lower[k]) * perUnit, 0.125);
+        border *= 1 + 1 / std::max(double(size[k]) * perUnit, 0.125);
     return sums.area * std::sqrt(squared * border);
 }
 
+std::uint32_t Cutter::addChildren(std::uint32_t node, ChartCuts::Node cut) {
+    cut.child = std::uint32_t(nodes.size());
+    nodes.resize(nodes.size() + 2);
+    nodes[node] = cut;
+    return cut.child;
+}
+
 /// Fills a node and those below it. Returns their cost.
-double Cutter::cut(std::uint32_t node, std::span<ResidualSample> samples, const Rectangle& r) {
-    ResidualSums sums;
-    for (const ResidualSample& s : samples)
-        sums.add(s);
-    const double whole = costOf(sums, r);
-    const auto piece = std::uint32_t(pieces.size());
+double Cutter::halve(std::uint32_t node, Samples samples) {
+    const ResidualSums sums = sumsOf(samples);
+    glm::vec2 lower(1e30f), upper(-1e30f);
+    for (const ResidualSample& s : samples) {
+        lower = glm::min(lower, s.uv);
+        upper = glm::max(upper, s.uv);
+    }
+    const glm::vec2 size = upper - lower;
+    const double whole = costOf(sums, size);
+    const auto firstPiece = std::uint32_t(pieces.size());
+    const std::size_t firstNode = nodes.size();
     if (std::ssize(samples) >= 2 * kMinSamples) {
-        const glm::vec2 size = r.upper - r.lower;
         const int axis = size.x >= size.y ? 0 : 1;
-        const auto isBelow = [axis](float position) {
-            return [=](const ResidualSample& s) { return s.uv[axis] <= position; };
-        };
-        float position = (r.lower[axis] + r.upper[axis]) / 2;
-        auto middle = std::partition(samples.begin(), samples.end(), isBelow(position));
+        ChartCuts::Node cut;
+        cut.across[axis] = 1;
+        cut.position = (lower[axis] + upper[axis]) / 2;
+        auto middle = divide(samples, cut);
         if (std::min(middle - samples.begin(), samples.end() - middle) < kMinSamples) {
-            const auto median = samples.begin() + std::ptrdiff_t(samples.size() / 2);
+            const auto median = samples.begin() + std::ssize(samples) / 2;
             std::nth_element(samples.begin(), median, samples.end(),
                              [&](const auto& a, const auto& b) { return a.uv[axis] < b.uv[axis]; });
-            position = median->uv[axis];
-            middle = std::partition(samples.begin(), samples.end(), isBelow(position));
+            cut.position = median->uv[axis];
+            middle = divide(samples, cut);
         }
         if (std::min(middle - samples.begin(), samples.end() - middle) >= kMinSamples) {
-            Rectangle below = r, above = r;
-            below.upper[axis] = above.lower[axis] = position;
-            const auto child = std::uint32_t(nodes.size());
-            nodes.resize(child + 2);
-            const double cost = cut(child, {samples.begin(), middle}, below) +
-                                cut(child + 1, {middle, samples.end()}, above);
-            if (cost < kWorth * whole) {
-                nodes[node] = {axis, position, child};
+            const std::uint32_t child = addChildren(node, cut);
+            const double cost =
+                halve(child, {samples.begin(), middle}) + halve(child + 1, {middle, samples.end()});
+            if (cost < kWorth * whole)
                 return cost;
-            }
-            nodes.resize(child);
-            pieces.resize(piece);
+            nodes.resize(firstNode);
+            pieces.resize(firstPiece);
         }
     }
-    nodes[node] = {-1, 0, piece};
+    nodes[node] = {};
+    nodes[node].child = firstPiece;
     pieces.push_back(sums);
+    pieces.back().part = parts;
     return whole;
+}
+
+/// Cuts along crossings first.
+void Cutter::cut(std::uint32_t node, Samples samples, std::vector<glm::vec2> crossings) {
+    const std::optional<ChartCuts::Node> line = crossingLine(crossings, samples);
+    if (!line) {
+        halve(node, samples);
+        ++parts;
+        return;
+    }
+    const std::uint32_t child = addChildren(node, *line);
+    const auto middle = divide(samples, *line);
+    const auto above = std::partition(crossings.begin(), crossings.end(),
+                                      [&](glm::vec2 p) { return !line->isAbove(p); });
+    cut(child, {samples.begin(), middle}, {crossings.begin(), above});
+    cut(child + 1, {middle, samples.end()}, {above, crossings.end()});
 }
 
 } // namespace
@@ -96,12 +137,13 @@ double ResidualSums::relative(double dim) const {
     return (squared / (mean * mean + dim * dim) + floor) / area;
 }
 
-std::vector<ResidualSums> cutIntoPieces(std::vector<ResidualSample>& samples, glm::vec2 chartSize,
-                                        double dim, const std::function<double(double)>& texels,
+std::vector<ResidualSums> cutIntoPieces(std::vector<ResidualSample>& samples,
+                                        const std::vector<glm::vec2>& crossings, double dim,
+                                        const std::function<double(double)>& texels,
                                         ChartCuts& cuts) {
     cuts.nodes.assign(1, {});
     Cutter cutter{dim, texels, cuts.nodes, {}};
-    cutter.cut(0, samples, {glm::vec2(0), chartSize});
+    cutter.cut(0, samples, crossings);
     if (cutter.pieces.size() == 1)
         cuts.nodes.clear();
     return std::move(cutter.pieces);

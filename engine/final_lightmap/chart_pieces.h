@@ -13,6 +13,7 @@ namespace limn {
 /// What a trial lightmap leaves at a point of a chart.
 struct ResidualSample {
     glm::vec2 uv;    ///< in the chart's plane [object units]
+    float width = 0; ///< of its texel [object units]
     float area = 0;  ///< that it stands for, relative
     float light = 0; ///< grey
     /// Grey squared error times the squared factor of its texels' density: what is left with a
@@ -25,6 +26,8 @@ struct ResidualSample {
 struct ResidualSums {
     double area = 0, light = 0, squared = 0, floor = 0;
     std::size_t count = 0;
+    /// Number of the part of the chart that crossings enclose. Light differs between parts.
+    std::uint32_t part = 0;
 
     void add(const ResidualSample& s);
     /// Mean squared error with a factor of 1, relative to the light of the samples, or to `dim`
@@ -37,9 +40,12 @@ struct ResidualSums {
 /// sqrt(e), as if it cost that much; cutting halves costs less where they differ, less the texels
 /// that both have along the cut. The pieces are those of least cost among all that halving a chart
 /// again and again makes. `texels`: texels per object unit that a piece of such a squared error
-/// gets. Sorts `samples`. Returns what each piece sums up to, by its number.
-std::vector<ResidualSums> cutIntoPieces(std::vector<ResidualSample>& samples, glm::vec2 chartSize,
-                                        double dim, const std::function<double(double)>& texels,
+/// gets. Before, a chart is cut along the lines in which other surfaces cross it, on which
+/// `crossings` lie [object units]: light differs on both sides, however many texels there are.
+/// Sorts `samples`. Returns what each piece sums up to, by its number.
+std::vector<ResidualSums> cutIntoPieces(std::vector<ResidualSample>& samples,
+                                        const std::vector<glm::vec2>& crossings, double dim,
+                                        const std::function<double(double)>& texels,
                                         ChartCuts& cuts);
 
 } // namespace limn

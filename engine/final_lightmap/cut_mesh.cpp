@@ -83,7 +83,7 @@ private:
         return cornerAt(edge) * (1 - s) + cornerAt((edge + 1) % 3) * s;
     }
     PieceVertex crossing(std::uint32_t t, const PieceVertex& a, const PieceVertex& b, double share,
-                         int axis, double position) const;
+                         const ChartCuts::Node& cut) const;
     void cutPolygon(std::uint32_t t, std::uint32_t node, Polygon polygon, std::vector<Piece>& out);
     void joinEdgePoints();
     double joined(EdgeKey key, double along) const;
@@ -110,15 +110,16 @@ private:
 };
 
 PieceVertex MeshCutter::crossing(std::uint32_t t, const PieceVertex& a, const PieceVertex& b,
-                                 double share, int axis, double position) const {
+                                 double share, const ChartCuts::Node& cut) const {
     for (int edge = 0; edge < 3; ++edge) {
         if (!isOnEdge(a, edge) || !isOnEdge(b, edge))
             continue;
         // From the edge's own ends, so that all triangles of a chart find the same fraction.
         const bool up = runsUp(t, edge);
-        const double from = uvOf(t, up ? edge : edge + 1)[axis],
-                     to = uvOf(t, up ? edge + 1 : edge)[axis];
-        const double along = std::clamp((position - from) / (to - from), 0., 1.);
+        const glm::dvec2 across(cut.across);
+        const double from = glm::dot(across, uvOf(t, up ? edge : edge + 1)),
+                     to = glm::dot(across, uvOf(t, up ? edge + 1 : edge));
+        const double along = std::clamp((double(cut.position) - from) / (to - from), 0., 1.);
         return {onEdge(t, edge, along), edge, along};
     }
     return {glm::mix(a.barycentric, b.barycentric, share), -1, 0};
@@ -128,11 +129,13 @@ PieceVertex MeshCutter::crossing(std::uint32_t t, const PieceVertex& a, const Pi
 void MeshCutter::cutPolygon(std::uint32_t t, std::uint32_t node, Polygon polygon,
                             std::vector<Piece>& out) {
     const ChartCuts::Node& cut = m_cuts[m_charts.chartOfTriangle[t]].nodes[node];
-    if (cut.axis < 0) {
+    if (cut.isPiece()) {
         out.push_back({cut.child, std::move(polygon)});
         return;
     }
-    const double a = uvOf(t, 0)[cut.axis], b = uvOf(t, 1)[cut.axis], c = uvOf(t, 2)[cut.axis];
+    const glm::dvec2 across(cut.across);
+    const double a = glm::dot(across, uvOf(t, 0)), b = glm::dot(across, uvOf(t, 1)),
+                 c = glm::dot(across, uvOf(t, 2));
     const double extent = std::max({a, b, c}) - std::min({a, b, c});
     std::vector<double> beyond;
     bool any[2] = {false, false};
@@ -157,8 +160,7 @@ void MeshCutter::cutPolygon(std::uint32_t t, std::uint32_t node, Polygon polygon
             sides[1].push_back(polygon[k]);
         if (beyond[k] * beyond[next] < 0) {
             const PieceVertex v =
-                crossing(t, polygon[k], polygon[next], beyond[k] / (beyond[k] - beyond[next]),
-                         cut.axis, double(cut.position));
+                crossing(t, polygon[k], polygon[next], beyond[k] / (beyond[k] - beyond[next]), cut);
             sides[0].push_back(v);
             sides[1].push_back(v);
         }
@@ -438,8 +440,8 @@ std::uint32_t ChartCuts::pieceAt(glm::vec2 uv) const {
     if (nodes.empty())
         return 0;
     std::uint32_t node = 0;
-    while (nodes[node].axis >= 0)
-        node = nodes[node].child + (uv[nodes[node].axis] > nodes[node].position ? 1 : 0);
+    while (!nodes[node].isPiece())
+        node = nodes[node].child + (nodes[node].isAbove(uv) ? 1 : 0);
     return nodes[node].child;
 }
 

@@ -13,12 +13,16 @@
 
 namespace limn {
 
-/// How a chart is cut into pieces: a k-d tree over the plane of MeshCharts::chartUv.
+/// How a chart is cut into pieces: a tree of straight cuts in the plane of MeshCharts::chartUv.
 struct ChartCuts {
     struct Node {
-        std::int32_t axis = -1;  ///< 0: cut across x, 1: across y; -1: a piece
-        float position = 0;      ///< of the cut along that axis [object units]
+        glm::vec2 across{0};     ///< unit, across the cut; 0: a piece
+        float position = 0;      ///< of the cut in that direction [object units]
         std::uint32_t child = 0; ///< node below the cut, which that above follows; a piece's number
+
+        bool isPiece() const { return across == glm::vec2(0); }
+        /// Whether a point lies beyond the cut.
+        bool isAbove(glm::vec2 uv) const { return across.x * uv.x + across.y * uv.y > position; }
     };
     std::vector<Node> nodes; ///< the root first; empty: the chart stays whole
 

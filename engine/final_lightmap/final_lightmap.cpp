@@ -152,7 +152,7 @@ static std::optional<FinalLightmap> makeMarked(const FinalLightmapInput& in,
     const LitTexelCount count{options.texels, options.maxSide, options.onePage};
     const BakeDensity density = findDensity(in.trace, in.layout.meshes, options.texels, progress);
     CutDensity laid = densityByResidual(
-        in.trace.scene(), in.layout.meshes, density.texels, count, options.cutCharts,
+        in.trace, in.layout.meshes, density.texels, count, options.cutCharts,
         [&](const Hit& hit) { return lightOfField(in, options, hit); }, progress);
     const CutScene& cut = laid.cut;
     LitTexels lit = layLitTexels(cut, laid.factors, count, progress);

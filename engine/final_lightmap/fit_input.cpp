@@ -51,12 +51,4 @@ TexelFitInput fitInput(const Scene& scene, const LitTexels& lit,
     return fit;
 }
 
-std::vector<glm::vec3> meanOfTexels(const LitTexels& lit, const std::vector<FittedPoint>& points,
-                                    const std::vector<glm::vec3>& light) {
-    std::vector<glm::vec3> mean(lit.atlas.texels.size());
-    for (std::size_t p = 0; p < points.size(); ++p)
-        mean[points[p].texel] += light[p] / float(lit.atlas.texels[points[p].texel].count);
-    return mean;
-}
-
 } // namespace limn

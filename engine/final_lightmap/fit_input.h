@@ -26,7 +26,13 @@ TexelFitInput fitInput(const Scene& scene, const LitTexels& lit,
                        const std::vector<FittedPoint>& points);
 
 /// The mean light of each texel's points; 0 where a texel has none.
-std::vector<glm::vec3> meanOfTexels(const LitTexels& lit, const std::vector<FittedPoint>& points,
-                                    const std::vector<glm::vec3>& light);
+template <class Light>
+std::vector<Light> meanOfTexels(const LitTexels& lit, const std::vector<FittedPoint>& points,
+                                const std::vector<Light>& light) {
+    std::vector<Light> mean(lit.atlas.texels.size(), Light(0));
+    for (std::size_t p = 0; p < points.size(); ++p)
+        mean[points[p].texel] += light[p] / float(lit.atlas.texels[points[p].texel].count);
+    return mean;
+}
 
 } // namespace limn

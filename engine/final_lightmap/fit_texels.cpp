@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/final_lightmap/fit_texels.h"
 
+#include "engine/core/parallel.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +25,6 @@ struct TexelFit::Solver {
     Matrix rows;
     std::vector<double> pointScale; ///< square roots of the points' weights
     std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;
-    Eigen::LeastSquaresConjugateGradient<Matrix> solver;
 };
 
 namespace {
@@ -86,34 +87,53 @@ TexelFit::TexelFit(const TexelFitInput& input) : m_solver(std::make_unique<Solve
         writer.endRow();
     }
     s.rows.finalize();
-    s.solver.setTolerance(kTolerance);
-    s.solver.setMaxIterations(kMaxSteps);
-    s.solver.compute(s.rows);
 }
 
 TexelFit::~TexelFit() = default;
 
+std::vector<float> TexelFit::solve(const std::vector<float>& light,
+                                   const std::vector<float>& first) const {
+    const Solver& s = *m_solver;
+    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(s.rows.rows());
+    for (std::size_t p = 0; p < light.size(); ++p)
+        wanted[Eigen::Index(p)] = s.pointScale[p] * double(light[p]);
+    for (std::size_t k = 0; k < s.neighbours.size(); ++k) {
+        const auto [a, b] = s.neighbours[k];
+        wanted[Eigen::Index(light.size() + k)] =
+            std::sqrt(kSmoothness) * (double(first[a]) - double(first[b]));
+    }
+    Eigen::VectorXd start(Eigen::Index(first.size()));
+    for (std::size_t t = 0; t < first.size(); ++t)
+        start[Eigen::Index(t)] = double(first[t]);
+    Eigen::LeastSquaresConjugateGradient<Matrix> solver; // it counts its steps
+    solver.setTolerance(kTolerance);
+    solver.setMaxIterations(kMaxSteps);
+    solver.compute(s.rows);
+    const Eigen::VectorXd solution = solver.solveWithGuess(wanted, start);
+    std::vector<float> fitted(first.size());
+    for (std::size_t t = 0; t < first.size(); ++t)
+        fitted[t] = float(solution[Eigen::Index(t)]);
+    return fitted;
+}
+
 std::vector<glm::vec3> TexelFit::solve(const std::vector<glm::vec3>& light,
                                        const std::vector<glm::vec3>& first) const {
-    const Solver& s = *m_solver;
-    std::vector<glm::vec3> fitted(first.size());
-    for (int channel = 0; channel < 3; ++channel) {
-        Eigen::VectorXd wanted = Eigen::VectorXd::Zero(s.rows.rows());
-        for (std::size_t p = 0; p < light.size(); ++p)
-            wanted[Eigen::Index(p)] = s.pointScale[p] * double(light[p][channel]);
-        for (std::size_t k = 0; k < s.neighbours.size(); ++k) {
-            const auto [a, b] = s.neighbours[k];
-            wanted[Eigen::Index(light.size() + k)] =
-                std::sqrt(kSmoothness) * (double(first[a][channel]) - double(first[b][channel]));
-        }
-        Eigen::VectorXd start(Eigen::Index(first.size()));
-        for (std::size_t t = 0; t < first.size(); ++t)
-            start[Eigen::Index(t)] = double(first[t][channel]);
-        const Eigen::VectorXd solution = s.solver.solveWithGuess(wanted, start);
-        for (std::size_t t = 0; t < first.size(); ++t)
-            fitted[t][channel] = float(solution[Eigen::Index(t)]);
-    }
-    return fitted;
+    const auto channel = [](const std::vector<glm::vec3>& colours, int c) {
+        std::vector<float> values;
+        values.reserve(colours.size());
+        for (const glm::vec3 colour : colours)
+            values.push_back(colour[c]);
+        return values;
+    };
+    std::array<std::vector<float>, 3> fitted;
+    parallelRanges(3, 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c < end; ++c)
+            fitted[c] = solve(channel(light, int(c)), channel(first, int(c)));
+    });
+    std::vector<glm::vec3> colours(first.size());
+    for (std::size_t t = 0; t < first.size(); ++t)
+        colours[t] = {fitted[0][t], fitted[1][t], fitted[2][t]};
+    return colours;
 }
 
 } // namespace limn

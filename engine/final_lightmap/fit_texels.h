@@ -33,7 +33,10 @@ public:
     explicit TexelFit(const TexelFitInput& input);
     ~TexelFit();
 
-    /// Light per texel from `light` per point, starting from `first` per texel.
+    /// Light per texel from `light` per point, starting from `first` per texel. Thread-safe.
+    std::vector<float> solve(const std::vector<float>& light,
+                             const std::vector<float>& first) const;
+    /// The same for each of three colours.
     std::vector<glm::vec3> solve(const std::vector<glm::vec3>& light,
                                  const std::vector<glm::vec3>& first) const;
 

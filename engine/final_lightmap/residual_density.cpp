@@ -2,6 +2,7 @@
 #include "engine/final_lightmap/residual_density.h"
 
 #include "engine/core/parallel.h"
+#include "engine/final_lightmap/chart_crossings.h"
 #include "engine/final_lightmap/chart_pieces.h"
 #include "engine/final_lightmap/fit_input.h"
 #include "engine/picture/gather_tile.h"
@@ -35,44 +36,52 @@ struct Trial {
     double texelsPerMetre = 0;         ///< of a factor of 1, in the final lightmap
 };
 
-glm::vec2 chartUvOf(const MeshCharts& charts, const MeshPoint& p) {
-    const auto corner = [&](std::size_t k) {
-        return charts.chartUv[charts.indices[3 * std::size_t(p.triangle) + k]];
-    };
-    const glm::vec2 b = p.barycentric;
-    return corner(0) * (1 - b.x - b.y) + corner(1) * b.x + corner(2) * b.y;
-}
-
 struct DensityFinder {
-    const Scene& scene;
+    const TraceScene& trace;
+    const Scene& scene; ///< of it
     const std::vector<MeshCharts>& charts;
     const LitTexelCount& count;
     const LightOfPoint& light;
     const Progress& progress;
     ChartFactors before; ///< of `charts`
     CutDensity found;
+    ChartCrossings crossings = {}; ///< that the trials have found
 
     const MeshCharts& chartsOf(std::uint32_t instance) const {
         return charts[scene.instances[instance].mesh];
     }
-    Trial tryTexels() const;
+    Trial tryTexels(bool cutCharts);
+    void addCrossings(const LitTexels& lit);
     void adapt(Trial& trial, bool cutCharts);
 };
 
+/// Adds what crosses charts between the texels of a trial.
+void DensityFinder::addCrossings(const LitTexels& lit) {
+    ChartCrossings more = findCrossings(trace, charts, found.cut, lit, progress);
+    crossings.resize(more.size());
+    for (std::size_t i = 0; i < more.size(); ++i) {
+        crossings[i].resize(more[i].size());
+        for (std::size_t c = 0; c < more[i].size(); ++c)
+            crossings[i][c].insert(crossings[i][c].end(), more[i][c].begin(), more[i][c].end());
+    }
+}
+
 /// Fits a lightmap to the light, and finds what is left of it.
-Trial DensityFinder::tryTexels() const {
+Trial DensityFinder::tryTexels(bool cutCharts) {
     const CutScene& cut = found.cut;
     LitTexelCount fewer = count;
     fewer.texels = std::max(count.texels / kTrial, 1U);
     const LitTexels lit = layLitTexels(cut, found.factors, fewer, progress);
+    if (cutCharts)
+        addCrossings(lit);
     const std::vector<FittedPoint> points = fittedPoints(lit);
     const TexelFitInput input = fitInput(cut.scene, lit, points);
-    std::vector<glm::vec3> wanted(points.size());
+    std::vector<float> wanted(points.size()); // greys
     parallelRanges(points.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
-            wanted[p] = light(hitOf(scene, cut, lit, points[p]));
+            wanted[p] = float(greyOf(light(hitOf(scene, cut, lit, points[p]))));
     });
-    const std::vector<glm::vec3> texels =
+    const std::vector<float> texels =
         TexelFit(input).solve(wanted, meanOfTexels(lit, points, wanted));
     Trial trial;
     trial.texelsPerMetre = double(lit.atlas.texelsPerMetre) * std::sqrt(double(kTrial));
@@ -83,22 +92,21 @@ Trial DensityFinder::tryTexels() const {
     for (std::size_t p = 0; p < points.size(); ++p) {
         const AtlasTexel& texel = lit.atlas.texels[points[p].texel];
         const TexelLookup& lookup = input.points[p];
-        glm::vec3 shown(0);
+        float shown = 0;
         for (std::size_t k = 0; k < 4; ++k)
             shown += lookup.weight[k] * texels[lookup.texel[k]];
         const MeshPoint& point = texel.points[points[p].point];
-        const MeshCharts& cutCharts = cut.charts[cut.scene.instances[texel.instance].mesh];
-        const float factor =
-            found.factors[texel.instance][cutCharts.chartOfTriangle[point.triangle]];
+        const MeshCharts& cutMesh = cut.charts[cut.scene.instances[texel.instance].mesh];
+        const float factor = found.factors[texel.instance][cutMesh.chartOfTriangle[point.triangle]];
         const MeshPoint source = cut.toSource(texel.instance, point);
         const MeshCharts& whole = chartsOf(texel.instance);
-        const auto error = float(greyOf(shown - wanted[p]));
-        const float grey = float(greyOf(wanted[p])), squaredFactor = factor * factor;
-        trial.light += double(grey);
+        const float error = shown - wanted[p], squaredFactor = factor * factor;
+        trial.light += double(wanted[p]);
         trial.samples[texel.instance][whole.chartOfTriangle[source.triangle]].push_back(
-            {.uv = chartUvOf(whole, source),
+            {.uv = chartUvAt(whole, source),
+             .width = texel.width / atlasScale(scene.instances[texel.instance]),
              .area = 1 / (squaredFactor * float(texel.count)),
-             .light = grey,
+             .light = wanted[p],
              .squared = error * error * squaredFactor,
              .floor = float(kFloor * kFloor) * squaredFactor});
     }
@@ -107,10 +115,14 @@ Trial DensityFinder::tryTexels() const {
     return trial;
 }
 
-/// Factors in steps, so that small charts of nearly the same may share texels.
-float stepped(double factor) {
+/// Factors in steps, so that small charts of nearly the same may share texels. Those in different
+/// parts of a chart, with a wall between, must not share any, and differ by little.
+float stepped(double factor, std::uint32_t part) {
     constexpr double kSteps = 2; // per octave
-    return float(std::exp2(std::round(std::log2(factor) * kSteps) / kSteps));
+    constexpr std::uint32_t kParts = 16;
+    constexpr double kNextPart = 1. / 512; // octaves
+    return float(std::exp2(std::round(std::log2(factor) * kSteps) / kSteps +
+                           kNextPart * double(part % kParts)));
 }
 
 /// Chooses pieces and factors by what a trial has left.
@@ -147,14 +159,15 @@ void DensityFinder::adapt(Trial& trial, bool cutCharts) {
                 std::vector<ResidualSums> pieces(1);
                 if (cutCharts)
                     pieces = cutIntoPieces(
-                        samples, whole.chartSize[c], dim,
+                        samples, crossings[i][c], dim,
                         [&](double squared) { return perUnit * factorOf(squared); }, cuts[i][c]);
                 else
                     for (const ResidualSample& s : samples)
                         pieces[0].add(s);
                 for (const ResidualSums& sums : pieces)
                     pieceFactors[i][c].push_back(
-                        sums.area > 0 ? stepped(factorOf(sums.relative(dim))) : float(start));
+                        sums.area > 0 ? stepped(factorOf(sums.relative(dim)), sums.part)
+                                      : float(start));
             }
         }
     });
@@ -173,18 +186,19 @@ void DensityFinder::adapt(Trial& trial, bool cutCharts) {
 
 } // namespace
 
-CutDensity densityByResidual(const Scene& scene, const std::vector<MeshCharts>& charts,
+CutDensity densityByResidual(const TraceScene& trace, const std::vector<MeshCharts>& charts,
                              ChartFactors factors, const LitTexelCount& count, bool cutCharts,
                              const LightOfPoint& light, const Progress& progress) {
+    const Scene& scene = trace.scene();
     factors.resize(scene.instances.size());
-    DensityFinder finder{
-        scene, charts, count, light, progress, factors, {cutScene(scene, charts, {}), factors}};
+    DensityFinder finder{trace, scene,    charts,  count,
+                         light, progress, factors, {cutScene(scene, charts, {}), factors}};
     for (std::size_t i = 0; i < factors.size(); ++i)
         if (factors[i].empty())
             finder.found.factors[i].assign(charts[scene.instances[i].mesh].chartSize.size(), 1);
     const int trials = cutCharts ? kCutTrials : kTrials;
     for (int k = 0; k < trials && !progress.cancelled(); ++k) {
-        Trial trial = finder.tryTexels();
+        Trial trial = finder.tryTexels(cutCharts);
         finder.adapt(trial, cutCharts);
     }
     return std::move(finder.found);

@@ -25,10 +25,10 @@ struct CutDensity {
 /// error: a trial lightmap is fitted to `light`, and what is left of it tells where texels are too
 /// few, as beside edges of light and around thin columns. Where the squared error falls in
 /// proportion to the number of texels, it is least where each chart has texels in proportion to the
-/// square root of its squared error times its texels. With `cutCharts`, charts whose parts differ
-/// are cut into pieces. Starts from the charts of `scene`, which are per mesh, and `factors`.
-/// Incomplete when cancelled.
-CutDensity densityByResidual(const Scene& scene, const std::vector<MeshCharts>& charts,
+/// square root of its squared error times its texels. With `cutCharts`, charts that other surfaces
+/// cross, or whose parts differ, are cut into pieces. Starts from the charts of `scene`, which are
+/// per mesh, and `factors`. Incomplete when cancelled.
+CutDensity densityByResidual(const TraceScene& trace, const std::vector<MeshCharts>& charts,
                              ChartFactors factors, const LitTexelCount& count, bool cutCharts,
                              const LightOfPoint& light, const Progress& progress);
 

@@ -6,6 +6,7 @@
 #include "engine/export/exported_lightmap.h"
 #include "engine/export/lightmap_error.h"
 #include "engine/field/sample_field.h"
+#include "engine/picture/field_lobe.h"
 #include "engine/gltf/gltf_import.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/export/exported_room.h"
@@ -51,7 +52,7 @@ struct Exported {
         scene = flatten(imported.document, imported.assets);
         path = folder.file(name);
     }
-    Result<BakedLight> light() const { return readBakedLight(path, scene, {}); }
+    Result<BakedLight> light() { return readBakedLight(path, scene, {}); }
     std::uint32_t quad() const {
         for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
             if (!scene.meshOf(scene.instances[i]).uv1.empty())
@@ -66,7 +67,7 @@ TEST(BakedLight, HasTheIrradianceOfTheTexels) {
     for (const LightmapQuantity quantity :
          {LightmapQuantity::Irradiance, LightmapQuantity::IrradianceOverPi})
         for (const char* name : {"room.gltf", "room.glb"}) {
-            const Exported room({.quantity = quantity}, name);
+            Exported room({.quantity = quantity}, name);
             const Result<BakedLight> light = room.light();
             ASSERT_TRUE(light) << light.error().message;
             EXPECT_FALSE(light->hasDirectLight);
@@ -79,7 +80,7 @@ TEST(BakedLight, HasTheIrradianceOfTheTexels) {
 }
 
 TEST(BakedLight, ReadsHarmonics) {
-    const Exported room({.encoding = TextureEncoding::Ktx2Half, .bands = 3});
+    Exported room({.encoding = TextureEncoding::Ktx2Half, .bands = 3});
     const Result<BakedLight> light = room.light();
     ASSERT_TRUE(light) << light.error().message;
     const glm::vec3 e = irradianceOf(*light, room.scene, room.quad()),
@@ -94,7 +95,7 @@ TEST(BakedLight, KnowsWhetherDirectLightIsInIt) {
 
 TEST(BakedLight, SaysWhatIsWrong) {
     const auto messageWith = [](const std::string& what, const std::string& with) {
-        const Exported room({});
+        Exported room({});
         std::stringstream text;
         text << std::ifstream(room.path).rdbuf();
         std::string json = text.str();
@@ -116,7 +117,7 @@ TEST(BakedLight, SaysWhatIsWrong) {
 
 TEST(BakedLight, SaysWhatIsWrongWithSeveralTextures) {
     const auto messageWith = [](const nlohmann::json& uris, const nlohmann::json& page) {
-        const Exported room({});
+        Exported room({});
         nlohmann::json json;
         std::ifstream(room.path) >> json;
         nlohmann::json& lightmap = json["asset"]["extras"]["limn"]["lightmap"];
@@ -197,6 +198,38 @@ TEST(BakedLight, ADividedLightmapShowsWhatAWholeOneDoes) {
     }
 }
 
+/// Exports write the sides of a surface as two surfaces in the same place. A ray meets either.
+TEST(BakedLight, ShowsEachSideOfASurfaceByItsOwnTexels) {
+    KnownLight known(constantLight);
+    known.scene.materials[0].doubleSided = true;
+    Light sun{.kind = LightKind::Directional, .strength = 3};
+    sun.direction = {0, 0, -1};
+    known.scene.lights = {sun};
+    const TraceScene whole(known.scene);
+    const ExportScene in{known.document, known.scene, whole, known.layout, known.field};
+    const ExportFormat& format = *findExportFormat("gltf");
+    const TemporaryFolder folder;
+    const std::string path = folder.file("sides.gltf");
+    const auto files =
+        format.write(in, {.texels = 100, .paths = 0, .direct = true}, "sides.gltf", {});
+    ASSERT_TRUE(files && writeExport(path, format, *files));
+    const ImportedScene imported = *importGltf(path);
+    Scene scene = flatten(imported.document, imported.assets);
+    EXPECT_EQ(scene.instances.size(), 3U);
+    const Result<BakedLight> light = readBakedLight(path, scene, {});
+    ASSERT_TRUE(light) << light.error().message;
+    EXPECT_EQ(scene.instances.size(), 2U);
+    const TraceScene trace(scene);
+    const auto shown = [&](float z) {
+        const Hit hit = trace.closestHit({{0.9f, 0.9f, z}, {0, 0, z > 0 ? -1 : 1}});
+        return sampleIrradiance(
+                   fieldPoint(light->field, light->layout, scene, hit, *surfacePoint(trace, hit)))
+            .x;
+    };
+    EXPECT_NEAR(shown(2) - shown(-2), 3, 0.1f); // the ball lights both
+    EXPECT_LT(shown(-2), 0.5f);
+}
+
 /// A quad that faces the camera, under an even sky of radiance 1: its irradiance is pi. Every texel
 /// holds the same.
 Comparison errorOfMap(float irradiance) {
@@ -205,7 +238,8 @@ Comparison errorOfMap(float irradiance) {
     light.scene.instances.resize(1);
     const TraceScene trace(light.scene);
     const ExportScene in{light.document, light.scene, trace, light.layout, light.field};
-    const LightmapPages pages = onePage(light.scene, light.layout, 1);
+    WrittenLightmap map;
+    map.pages = onePage(light.scene, light.layout, 1);
     const std::vector<LightmapImage> images = {
         {KnownLight::kTexels, KnownLight::kTexels, 1,
          std::vector<glm::vec3>(std::size_t(KnownLight::kTexels) * KnownLight::kTexels,
@@ -213,7 +247,7 @@ Comparison errorOfMap(float irradiance) {
     LightmapErrorOptions options{.camera = light.scene.cameras.front()};
     options.width = options.height = 16;
     options.paths = 64;
-    return *lightmapError(in, pages, images, {}, options, {});
+    return *lightmapError(in, map, images, {}, options, {});
 }
 
 TEST(ExportedLightmap, HasTheDensityThatIsAskedFor) {

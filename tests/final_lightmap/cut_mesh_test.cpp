@@ -21,30 +21,31 @@ using namespace simple;
 
 /// Cuts that divide a chart of that size at random, `depth` times one after another.
 void divide(ChartCuts& cuts, std::uint32_t node, glm::vec2 lower, glm::vec2 upper, int depth,
-            std::mt19937& random, std::uint32_t& pieces) {
+            std::mt19937& random, std::uint32_t& pieces, bool oblique) {
     std::uniform_real_distribution<float> part(0.1f, 0.9f);
     if (depth == 0 || random() % 4 == 0) {
-        cuts.nodes[node] = {-1, 0, pieces++};
+        cuts.nodes[node].child = pieces++;
         return;
     }
-    const int axis = int(random() % 2);
-    const float position = lower[axis] + part(random) * (upper[axis] - lower[axis]);
-    const auto child = std::uint32_t(cuts.nodes.size());
-    cuts.nodes.resize(child + 2);
-    cuts.nodes[node] = {axis, position, child};
-    glm::vec2 below = upper, above = lower;
-    below[axis] = above[axis] = position;
-    divide(cuts, child, lower, below, depth - 1, random, pieces);
-    divide(cuts, child + 1, above, upper, depth - 1, random, pieces);
+    const float angle = random() % 2 == 0 || !oblique ? 0 : 3 * part(random);
+    ChartCuts::Node cut;
+    cut.across = {std::cos(angle), std::sin(angle)};
+    cut.position = glm::dot(cut.across, lower + part(random) * (upper - lower));
+    cut.child = std::uint32_t(cuts.nodes.size());
+    cuts.nodes.resize(cut.child + 2);
+    cuts.nodes[node] = cut;
+    divide(cuts, cut.child, lower, upper, depth - 1, random, pieces, oblique);
+    divide(cuts, cut.child + 1, lower, upper, depth - 1, random, pieces, oblique);
 }
 
-std::vector<ChartCuts> randomCuts(const MeshCharts& charts, std::uint32_t seed, int depth = 4) {
+std::vector<ChartCuts> randomCuts(const MeshCharts& charts, std::uint32_t seed,
+                                  bool oblique = true) {
     std::mt19937 random(seed);
     std::vector<ChartCuts> all(charts.chartSize.size());
     for (std::size_t c = 0; c < all.size(); ++c) {
         std::uint32_t pieces = 0;
         all[c].nodes.resize(1);
-        divide(all[c], 0, glm::vec2(0), charts.chartSize[c], depth, random, pieces);
+        divide(all[c], 0, glm::vec2(0), charts.chartSize[c], 4, random, pieces, oblique);
     }
     return all;
 }
@@ -142,7 +143,7 @@ TEST(CutMesh, InterpolatesAttributes) {
 TEST(CutMesh, GivesEachPieceAChartWithItsPartOfThePlane) {
     const Mesh mesh = quad({0, 0, 0}, {4, 0, 0}, {0, 0, -2});
     const MeshCharts charts = buildCharts(mesh);
-    const std::vector<ChartCuts> cuts = randomCuts(charts, 1);
+    const std::vector<ChartCuts> cuts = randomCuts(charts, 1, false);
     const CutMesh cut = cutMesh(mesh, charts, cuts);
     double area = 0;
     for (const glm::vec2 size : cut.charts.chartSize)
@@ -178,6 +179,7 @@ std::vector<ResidualSample> samplesOf(float (*squared)(glm::vec2)) {
     for (float x = 0.05f; x < 8; x += 0.1f)
         for (float y = 0.05f; y < 8; y += 0.1f)
             samples.push_back({.uv = {x, y},
+                               .width = 0.2f,
                                .area = 0.01f,
                                .light = 1,
                                .squared = squared({x, y}),
@@ -189,11 +191,11 @@ TEST(ChartPieces, CutsWhereErrorsDiffer) {
     const auto texels = [](double squared) { return 20 * std::sqrt(std::sqrt(squared)); };
     ChartCuts cuts;
     std::vector<ResidualSample> even = samplesOf([](glm::vec2) { return 0.01f; });
-    EXPECT_EQ(cutIntoPieces(even, {8, 8}, 1, texels, cuts).size(), 1U);
+    EXPECT_EQ(cutIntoPieces(even, {}, 1, texels, cuts).size(), 1U);
     EXPECT_TRUE(cuts.nodes.empty());
     std::vector<ResidualSample> corner =
         samplesOf([](glm::vec2 uv) { return uv.x < 2 && uv.y < 2 ? 1.f : 0.f; });
-    const std::vector<ResidualSums> pieces = cutIntoPieces(corner, {8, 8}, 1, texels, cuts);
+    const std::vector<ResidualSums> pieces = cutIntoPieces(corner, {}, 1, texels, cuts);
     EXPECT_GT(pieces.size(), 2U);
     const ResidualSums& inside = pieces[cuts.pieceAt({1, 1})];
     EXPECT_NEAR(inside.area, 4, 1e-3);
@@ -201,6 +203,29 @@ TEST(ChartPieces, CutsWhereErrorsDiffer) {
     EXPECT_NE(cuts.pieceAt({1, 1}), cuts.pieceAt({1, 3}));
     // A squared error of 1 over the mean squared light, 1, and dim light squared, 1.
     EXPECT_NEAR(inside.relative(1), 0.5 + 1e-4, 1e-3);
+}
+
+/// A wall as thick as half a texel stands across a chart, at an angle.
+TEST(ChartPieces, CutsAlongWhatCrossesAChart) {
+    const auto texels = [](double) { return 5.; };
+    const glm::vec2 across = glm::normalize(glm::vec2(3, 1)), along(-across.y, across.x);
+    std::vector<glm::vec2> crossings;
+    for (float s = -6; s < 6; s += 0.07f)
+        for (const float side : {5.f, 5.1f})
+            if (const glm::vec2 p = side * across + s * along;
+                p.x > 0 && p.x < 8 && p.y > 0 && p.y < 8)
+                crossings.push_back(p);
+    std::vector<ResidualSample> samples = samplesOf([](glm::vec2) { return 0.01f; });
+    ChartCuts cuts;
+    const std::vector<ResidualSums> pieces = cutIntoPieces(samples, crossings, 1, texels, cuts);
+    EXPECT_EQ(pieces.size(), 3U);
+    const auto pieceAt = [&](float position) { return cuts.pieceAt(position * across + along); };
+    EXPECT_NE(pieceAt(4.99f), pieceAt(5.01f));
+    EXPECT_EQ(pieceAt(5.01f), pieceAt(5.09f));
+    EXPECT_NE(pieceAt(5.09f), pieceAt(5.11f));
+    // What stands about here and there leaves a chart whole.
+    crossings.resize(crossings.size() / 3);
+    EXPECT_EQ(cutIntoPieces(samples, crossings, 1, texels, cuts).size(), 1U);
 }
 
 } // namespace
