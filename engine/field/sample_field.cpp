@@ -16,7 +16,8 @@ namespace limn {
 
 namespace {
 
-using Coefficients = std::array<glm::vec3, kMaxCoefficients>;
+/// Those of irradiance.
+using IrradianceCoefficients = std::array<glm::vec3, kIrradianceBands * kIrradianceBands>;
 
 /// A surface point at which the grid is read.
 struct GridPoint {
@@ -68,20 +69,18 @@ FieldLookup gridLookup(const IndirectField& field, glm::vec3 position, glm::vec3
 
 namespace {
 
-/// The first bands^2 coefficients of the light above a surface point; the others are 0. At least 2
-/// bands.
-Coefficients sampleField(const FieldPoint& point, int bands) {
+/// Adds the first bands^2 coefficients of the light above a surface point to `c`, which are 0. At
+/// least 2 bands.
+void sampleField(const FieldPoint& point, int bands, glm::vec3* c) {
     const FieldLookup lookup = lookUp(point);
     const IndirectField& field = point.field;
     const std::vector<glm::vec4>& values = lookup.grid ? field.grid : field.lightmap;
     const std::size_t stride = values.size() / field.coefficients();
-    Coefficients c{};
     for (std::size_t i = 0; i < std::size_t(bands * bands); ++i)
         for (std::size_t k = 0; k < lookup.count; ++k)
             c[i] += glm::vec3(values[i * stride + lookup.index[k]]) * lookup.weight[k];
     if (field.continues && !lookup.grid && lookup.count > 0)
-        cutBelow(point.surfaceNormal(), c.data());
-    return c;
+        cutBelow(point.surfaceNormal(), c);
 }
 
 /// Adds what the field's other parts contribute.
@@ -129,7 +128,8 @@ FieldLookup lookUp(const FieldPoint& point) {
 
 glm::vec3 sampleIrradiance(const FieldPoint& point) {
     const int bands = std::min(int(point.field.bands), kIrradianceBands);
-    const Coefficients c = sampleField(point, bands);
+    IrradianceCoefficients c{};
+    sampleField(point, bands, c.data());
     glm::vec3 irradiance = shIrradiance(bands, c.data(), point.normal);
     addParts(point, irradiance,
              [&](const FieldPart& part, FieldTaps& taps) { part.irradianceTaps(point, taps); });
@@ -138,7 +138,8 @@ glm::vec3 sampleIrradiance(const FieldPoint& point) {
 
 glm::vec3 sampleRadiance(const FieldPoint& point, glm::vec3 direction) {
     const int bands = std::min(int(point.field.bands), kIrradianceBands);
-    const Coefficients c = sampleField(point, bands);
+    IrradianceCoefficients c{};
+    sampleField(point, bands, c.data());
     float w[kIrradianceBands * kIrradianceBands];
     hemisphereRadianceWeights(bands, point.normal, direction, w);
     glm::vec3 radiance(0);
@@ -153,7 +154,8 @@ glm::vec3 sampleRadiance(const FieldPoint& point, glm::vec3 direction) {
 glm::vec3 sampleLobe(const FieldPoint& point, glm::vec3 direction, int bands,
                      const std::array<float, kMaxBands>& factors) {
     const int stored = std::min(bands, int(point.field.bands));
-    const Coefficients c = sampleField(point, stored);
+    std::array<glm::vec3, kMaxCoefficients> c{};
+    sampleField(point, stored, c.data());
     glm::vec3 radiance = shLobe(stored, c.data(), direction, factors);
     addParts(point, radiance, [&](const FieldPart& part, FieldTaps& taps) {
         part.lobeTaps(point, direction, bands, factors, taps);
