@@ -140,7 +140,7 @@ Json forecastJson(const ExportForecast& forecast) {
             {"detail", forecast.detail}};
 }
 
-/// {"format", "seconds", "bytes", "forecast", "files": [{"name", "bytes"}]}.
+/// {"format", "seconds", "bytes", "forecast", "files": [{"name", "bytes", "error", "seams"}]}.
 Json reportJson(const ExportFormat& format, const ExportForecast& forecast,
                 const std::vector<ExportedFile>& files, double seconds) {
     std::uint64_t bytes = 0;
@@ -150,6 +150,8 @@ Json reportJson(const ExportFormat& format, const ExportForecast& forecast,
         Json entry = {{"name", file.name}, {"bytes", file.bytes}};
         if (file.error)
             entry["error"] = errorJson(*file.error);
+        if (file.seams)
+            entry["seams"] = seamsJson(*file.seams);
         list.push_back(std::move(entry));
     }
     return {{"format", format.name},

@@ -38,6 +38,8 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
     options.extras["lightmap"] = lightmapJson(map->first, settings, map->files);
     if (map->error)
         options.extras["lightmap"]["error"] = errorJson(*map->error);
+    if (map->seams)
+        options.extras["lightmap"]["seams"] = seamsJson(*map->seams);
     options.extras.update(parts.extras);
     Result<std::vector<ExportFile>> files = gltfFiles(scene, options, name, progress);
     if (files) {

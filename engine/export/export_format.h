@@ -6,6 +6,7 @@
 #include "engine/field/indirect_field.h"
 #include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/measure/compare.h"
+#include "engine/measure/seams.h"
 #include "engine/scene/document.h"
 #include "engine/scene/export_settings.h"
 #include "engine/scene/scene.h"
@@ -48,6 +49,7 @@ struct ExportFile {
     std::string name;                               ///< may contain folders, separated by '/'
     std::string bytes;                              ///< the whole content
     std::optional<Comparison> error = std::nullopt; ///< of the lightmap in it, where it is measured
+    std::optional<SeamError> seams = std::nullopt;  ///< of the same, where it has smooth ones
 };
 
 /// An exported size before anything is computed.

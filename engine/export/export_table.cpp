@@ -82,9 +82,13 @@ static std::string nameOf(const std::string& path) {
 }
 
 std::string errorText(const ExportedFile& file) {
-    if (!file.error)
-        return {};
-    return fmt::format(", nRMSE {:.3f}, bias {:+.1f} %", file.error->nrmse, 100 * file.error->bias);
+    std::string text;
+    if (file.error)
+        text = fmt::format(", nRMSE {:.3f}, bias {:+.1f} %", file.error->nrmse,
+                           100 * file.error->bias);
+    if (file.seams)
+        text += fmt::format(", seams {:.2g} %", 100 * file.seams->relative());
+    return text;
 }
 
 Result<std::vector<ExportedFile>> exportLight(const std::string& path, const ExportFormat& format,
@@ -106,7 +110,7 @@ Result<std::vector<ExportedFile>> exportLight(const std::string& path, const Exp
         return tl::make_unexpected(written.error());
     std::vector<ExportedFile> written;
     for (const ExportFile& file : *files)
-        written.push_back({file.name, file.bytes.size(), file.error});
+        written.push_back({file.name, file.bytes.size(), file.error, file.seams});
     return written;
 }
 

@@ -128,13 +128,11 @@ Result<ExportedLightmap> exportedLightmap(const ExportScene& scene, const Export
                : draftLightmap(scene, settings, pageCount, progress);
 }
 
-/// The texels that a program reads from the files.
-static Result<std::vector<LightmapImage>> decoded(const std::vector<LightmapImage>& images,
-                                                  const std::vector<ExportFile>& files,
-                                                  const ExportSettings& settings) {
+/// Replaces the texels by those that a program reads from the files.
+static Result<void> readBack(const std::vector<ExportFile>& files, const ExportSettings& settings,
+                             std::vector<LightmapImage>& images) {
     if (settings.encoding == TextureEncoding::Exr)
-        return images; // it holds every number as it is
-    std::vector<LightmapImage> read = images;
+        return {}; // it holds every number as it is
     for (std::size_t page = 0; page < files.size(); ++page) {
         const std::string& bytes = files[page].bytes;
         const Result<Ktx2Texture> texture =
@@ -142,9 +140,9 @@ static Result<std::vector<LightmapImage>> decoded(const std::vector<LightmapImag
         if (!texture)
             return tl::make_unexpected(texture.error());
         for (std::size_t t = 0; t < texture->texels.size(); ++t)
-            read[page].rgb[t] = glm::vec3(texture->texels[t]);
+            images[page].rgb[t] = glm::vec3(texture->texels[t]);
     }
-    return read;
+    return {};
 }
 
 static Result<WrittenLightmap> writeOnce(const ExportScene& scene, const ExportSettings& settings,
@@ -155,21 +153,22 @@ static Result<WrittenLightmap> writeOnce(const ExportScene& scene, const ExportS
     Result<std::vector<ExportFile>> files = lightmapFiles(map->images, settings, stem);
     if (!files)
         return tl::make_unexpected(files.error());
+    if (const Result<void> read = readBack(*files, settings, map->images); !read)
+        return tl::make_unexpected(read.error());
     WrittenLightmap written{.cut = map->cut,
                             .pages = std::move(map->pages),
                             .first = {},
                             .files = std::move(*files),
-                            .error = std::nullopt};
+                            .error = std::nullopt,
+                            .seams = std::nullopt};
+    if (const SeamError seams = exportedSeams(scene, written, map->images); seams.length > 0)
+        written.files.front().seams = written.seams = seams;
     if (scene.camera && (settings.paths > 0 || settings.error > 0)) {
-        const Result<std::vector<LightmapImage>> read =
-            decoded(map->images, written.files, settings);
-        if (!read)
-            return tl::make_unexpected(read.error());
         LightmapErrorOptions options{.camera = *scene.camera};
         const std::uint32_t points = options.pointsPerSide * options.pointsPerSide;
         options.paths = std::max((settings.paths + points - 1) / points, 1U);
         const Result<Comparison> error =
-            lightmapError(scene, written, *read, settings, options, progress);
+            lightmapError(scene, written, map->images, settings, options, progress);
         if (!error && (settings.error > 0 || progress.cancelled()))
             return tl::make_unexpected(error.error());
         if (error)

@@ -39,6 +39,7 @@ struct WrittenLightmap {
     LightmapImage first; ///< image of the first page without its texels, for lightmapJson()
     std::vector<ExportFile> files;
     std::optional<Comparison> error; ///< of the texels that a program reads from the files
+    std::optional<SeamError> seams;  ///< of the same; none where no charts meet on smooth surfaces
 };
 
 /// Makes the lightmap and encodes it in files that are called `stem`. Where settings.error asks for

@@ -2,6 +2,7 @@
 #include "engine/export/lightmap_error.h"
 
 #include "engine/core/parallel.h"
+#include "engine/final_lightmap/texel_lookups.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/math/sh.h"
 #include "engine/measure/seen_points.h"
@@ -144,6 +145,21 @@ Result<Comparison> lightmapError(const ExportScene& scene, const WrittenLightmap
     if (error && !std::isfinite(error->nrmse))
         return fail("the camera sees no light");
     return error;
+}
+
+SeamError exportedSeams(const ExportScene& scene, const WrittenLightmap& map,
+                        const std::vector<LightmapImage>& images) {
+    constexpr std::uint32_t kSamples = 16; // an edge is often longer than a texel
+    const Scene& shapes = map.cut ? map.cut->scene : scene.scene;
+    LightmapLayout layout; // of what is measured, its charts alone
+    layout.meshes = map.cut ? map.cut->charts : scene.layout.meshes;
+    layout.instances = scene.layout.instances;
+    return measureSeams(shapes, layout,
+                        [&](std::uint32_t instance, const MeshPoint& point, glm::vec3 n) {
+                            const Hit hit = hitOfPoint(shapes, instance, point, false);
+                            return *lookUpExported(shapes, layout.meshes, map.pages, images, hit, n);
+                        },
+                        {.smooth = true, .samples = kSamples});
 }
 
 } // namespace limn

@@ -5,6 +5,7 @@
 #include "engine/core/result.h"
 #include "engine/export/exported_lightmap.h"
 #include "engine/measure/compare.h"
+#include "engine/measure/seams.h"
 #include "engine/scene/camera.h"
 #include "engine/trace/trace_scene.h"
 
@@ -40,5 +41,10 @@ Result<Comparison> lightmapError(const ExportScene& scene, const WrittenLightmap
                                  const std::vector<LightmapImage>& images,
                                  const ExportSettings& settings,
                                  const LightmapErrorOptions& options, const Progress& progress);
+
+/// The jumps of what `images` show where charts meet on the fronts of smooth surfaces. Their unit
+/// is that of the texels.
+SeamError exportedSeams(const ExportScene& scene, const WrittenLightmap& map,
+                        const std::vector<LightmapImage>& images);
 
 } // namespace limn

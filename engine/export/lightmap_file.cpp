@@ -138,4 +138,8 @@ Json errorJson(const Comparison& error) {
             {"biasNoise", error.biasNoise}};
 }
 
+Json seamsJson(const SeamError& seams) {
+    return {{"jump", seams.relative()}, {"metres", seams.length}};
+}
+
 } // namespace limn

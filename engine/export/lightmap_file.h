@@ -39,4 +39,7 @@ Json lightmapJson(const LightmapImage& image, const ExportSettings& settings,
 /// The error of a lightmap, for the same place: nRMSE and bias, each with its standard error.
 Json errorJson(const Comparison& error);
 
+/// Its seams, there too: the mean jump relative to the light, and the length of all seams [m].
+Json seamsJson(const SeamError& seams);
+
 } // namespace limn

@@ -276,5 +276,30 @@ TEST(LightmapError, IsThatOfTheTexels) {
     EXPECT_NEAR(brighter.bias, 0.1, 1e-3);
 }
 
+TEST(ExportedSeams, AreTheJumpsBetweenTheTexelsOfCharts) {
+    KnownLight light(constantLight); // its quad's triangles as charts of their own, on two pages
+    light.scene.instances.resize(1);
+    light.layout.meshes[0] = {.sourceVertex = {0, 1, 2, 0, 2, 3},
+                              .indices = {0, 1, 2, 3, 4, 5},
+                              .chartOfTriangle = {0, 1},
+                              .chartUv = {},
+                              .chartSize = {}};
+    WrittenLightmap map;
+    LightmapPages& pages = map.pages;
+    pages.count = 2;
+    pages.width = 2;
+    pages.height = 1;
+    pages.instances.resize(1);
+    pages.instances[0][0] = {std::vector<glm::vec2>(6, {0.5f, 0.5f}), {0, 1}};
+    light.layout.instances[0].uv = pages.instances[0][0].uv;
+    const auto page = [](float left, float right) {
+        return LightmapImage{2, 1, 1, {glm::vec3(left), glm::vec3(right)}};
+    };
+    const SeamError seams = exportedSeams(light.view(), map, {page(1, 2), page(1, 4)});
+    EXPECT_NEAR(seams.length, 2 * std::sqrt(2.), 1e-5);
+    EXPECT_NEAR(seams.jump, 1, 1e-5); // of 1.5 and 2.5
+    EXPECT_NEAR(seams.irradiance, 2, 1e-5);
+}
+
 } // namespace
 } // namespace limn::baked_light_test

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
 namespace limn::seams_test {
@@ -60,6 +61,33 @@ TEST(Seams, AnEdgeBetweenTwoChartsJumpsByTheirDifference) {
 TEST(Seams, ASharpEdgeIsNoSeam) {
     EXPECT_GT(TwoCharts({1, 3}, 0.5f, 1).measure().length, 0);
     EXPECT_EQ(TwoCharts({1, 3}, 0.55f, 1).measure().length, 0); // 31.5 degrees
+}
+
+/// Light of 1 in the first chart and 3 in the second.
+SeamError smoothSeams(const TwoCharts& two, std::uint32_t samples) {
+    return measureSeams(two.scene, two.layout,
+                        [](std::uint32_t, const MeshPoint& p, glm::vec3) {
+                            return glm::vec3(2 * float(p.triangle) + 1);
+                        },
+                        {.smooth = true, .samples = samples});
+}
+
+TEST(Seams, SmoothOnesAreThoseOfTheShadingNormals) {
+    TwoCharts two({1, 3}, 0.55f, 10); // folded, with the normals of a plane
+    for (const std::uint32_t samples : {1U, 7U}) {
+        EXPECT_NEAR(smoothSeams(two, samples).length, 10 * std::sqrt(2.), 1e-4);
+        EXPECT_NEAR(smoothSeams(two, samples).jump, 2, 1e-5);
+        EXPECT_NEAR(smoothSeams(two, samples).irradiance, 2, 1e-5);
+    }
+    const auto lengthWithoutNormals = [](float fold) {
+        TwoCharts flat({1, 3}, fold, 1);
+        auto assets = std::make_shared<Assets>(*flat.scene.assets);
+        assets->meshes[0].normals.clear();
+        flat.scene.assets = assets;
+        return smoothSeams(flat, 4).length;
+    };
+    EXPECT_GT(lengthWithoutNormals(0.034f), 0); // 1.95 degrees
+    EXPECT_EQ(lengthWithoutNormals(0.036f), 0); // 2.06 degrees
 }
 
 TEST(Seams, WithinAChartThereIsNone) {
