@@ -21,11 +21,9 @@ void visitExportSettings(S& s, const Visit& visit) {
     visit(Setting{.key = "quality",
                   .flag = "--quality",
                   .label = "Lightmap's quality",
-                  .help = "final: rays gather the light of each texel; draft: the bake's caches "
-                          "hold it",
-                  .tooltip = "Final: rays gather light at points under each texel, which takes "
-                             "from seconds to minutes. Draft: texels repeat what the bake's "
-                             "caches hold",
+                  .help = "final: rays gather each texel's light; draft: the bake's caches hold it",
+                  .tooltip = "Final: rays gather light under each texel, for seconds to minutes. "
+                             "Draft: texels repeat what the bake's caches hold",
                   .invalidates = Invalidates::Light},
           s.quality, SettingChoices{kLightmapQualityNames, kLightmapQualityLabels});
     visit(Setting{.key = "texels",
@@ -42,9 +40,7 @@ void visitExportSettings(S& s, const Visit& visit) {
                   .flag = "--lightmap-texels-per-metre",
                   .label = "Lightmap's density (texels/m)",
                   .help = "Mean density of a final lightmap, instead of --texels; 0: none",
-                  .tooltip = "Texels along each metre of surface of a final lightmap, on the mean: "
-                             "charts in which light varies more have more [1/m]. 0: none is asked "
-                             "for",
+                  .tooltip = "Mean number of texels along a metre of surface [1/m]. 0: not set",
                   .invalidates = Invalidates::Light,
                   .applies = missingFor(s, "texelsPerMetre").empty()},
           s.texelsPerMetre, SettingRange{0, 1e6});
@@ -61,11 +57,9 @@ void visitExportSettings(S& s, const Visit& visit) {
     visit(Setting{.key = "error",
                   .flag = "--error",
                   .label = "Largest error",
-                  .help = "Maximum nRMSE of the lightmap that the camera sees: texels double until "
-                          "it holds; 0: none",
-                  .tooltip = "Maximum error of the exported lightmap where the first camera looks "
-                             "(nRMSE, .1 is 10 %). Texels double until it holds. 0: none is "
-                             "asked for",
+                  .help = "Maximum nRMSE of what the camera sees: texels double until it holds",
+                  .tooltip = "Maximum error of the lightmap where the first camera looks (nRMSE, "
+                             ".1 is 10 %). Texels double until it holds. 0: not set",
                   .invalidates = Invalidates::Light,
                   .applies = missingFor(s, "error").empty()},
           s.error, SettingRange{0, 10});
@@ -74,9 +68,8 @@ void visitExportSettings(S& s, const Visit& visit) {
                   .label = "Paths to measure by",
                   .help = "Paths for each of 160 x 90 pixels to measure the lightmap's error by; "
                           "0: it is not measured",
-                  .tooltip = "Paths that are traced for each of 160 x 90 pixels of the first "
-                             "camera's picture, to measure the error of the exported lightmap. "
-                             "0: it is not measured",
+                  .tooltip = "Paths for each of 160 x 90 pixels of the first camera's picture, to "
+                             "measure the lightmap's error. 0: it is not measured",
                   .invalidates = Invalidates::Light},
           s.paths, SettingRange{0, 65536});
     visit(Setting{.key = "encoding",
