@@ -58,10 +58,11 @@ ImageF pixelMeans(const std::vector<glm::vec3>& values, const std::vector<std::u
 
 } // namespace
 
-std::optional<glm::vec3> lookUpExported(const Scene& scene, const std::vector<MeshCharts>& meshes,
-                                        const LightmapPages& pages,
-                                        const std::vector<LightmapImage>& images,
-                                        const SurfaceHit& hit, glm::vec3 normal) {
+/// A lookup in the scene that the pages belong to, with charts per mesh.
+static std::optional<glm::vec3> lookUpIn(const Scene& scene, const std::vector<MeshCharts>& meshes,
+                                         const LightmapPages& pages,
+                                         const std::vector<LightmapImage>& images,
+                                         const SurfaceHit& hit, glm::vec3 normal) {
     if (hit.instance >= pages.instances.size() || pages.instances[hit.instance][0].uv.empty())
         return std::nullopt;
     const std::array<LightmapPages::Side, 2>& sides = pages.instances[hit.instance];
@@ -84,20 +85,17 @@ std::optional<glm::vec3> lookUpExported(const Scene& scene, const std::vector<Me
     return glm::max(shIrradiance(image.layers == 4 ? 2 : 3, c.data(), normal), glm::vec3(0));
 }
 
-/// What a program shows at a point of the exported scene.
-static std::optional<glm::vec3> shownAt(const ExportScene& scene, const WrittenLightmap& map,
-                                        const std::vector<LightmapImage>& images,
-                                        const SeenPoint& point) {
-    if (!map.cut)
-        return lookUpExported(scene.scene, scene.layout.meshes, map.pages, images, point.hit,
-                              point.surface.normal);
-    const CutScene& cut = *map.cut;
-    SurfaceHit hit = point.hit;
-    const MeshPoint p = cut.fromSource(hit.instance, {hit.triangle, {hit.u, hit.v}});
+std::optional<glm::vec3> lookUpExported(const ExportScene& scene, const CutScene* cut,
+                                        const LightmapPages& pages,
+                                        const std::vector<LightmapImage>& images, SurfaceHit hit,
+                                        glm::vec3 normal) {
+    if (!cut)
+        return lookUpIn(scene.scene, scene.layout.meshes, pages, images, hit, normal);
+    const MeshPoint p = cut->fromSource(hit.instance, {hit.triangle, {hit.u, hit.v}});
     hit.triangle = p.triangle;
     hit.u = p.barycentric.x;
     hit.v = p.barycentric.y;
-    return lookUpExported(cut.scene, cut.charts, map.pages, images, hit, point.surface.normal);
+    return lookUpIn(cut->scene, cut->charts, pages, images, hit, normal);
 }
 
 Result<Comparison> lightmapError(const ExportScene& scene, const WrittenLightmap& map,
@@ -111,7 +109,9 @@ Result<Comparison> lightmapError(const ExportScene& scene, const WrittenLightmap
     std::vector<glm::vec3> shown;
     for (std::uint32_t i = 0; i < columns * options.height * side; ++i) {
         const std::optional<SeenPoint> p = findSeenPoint(scene.trace, rays, i, 1);
-        const std::optional<glm::vec3> value = p ? shownAt(scene, map, images, *p) : std::nullopt;
+        const std::optional<glm::vec3> value =
+            p ? lookUpExported(scene, map.cut.get(), map.pages, images, p->hit, p->surface.normal)
+              : std::nullopt;
         if (!value)
             continue;
         points.push_back(*p);
@@ -157,7 +157,7 @@ SeamError exportedSeams(const ExportScene& scene, const WrittenLightmap& map,
     return measureSeams(shapes, layout,
                         [&](std::uint32_t instance, const MeshPoint& point, glm::vec3 n) {
                             const Hit hit = hitOfPoint(shapes, instance, point, false);
-                            return *lookUpExported(shapes, layout.meshes, map.pages, images, hit, n);
+                            return *lookUpIn(shapes, layout.meshes, map.pages, images, hit, n);
                         },
                         {.smooth = true, .samples = kSamples});
 }

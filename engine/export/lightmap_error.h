@@ -25,13 +25,13 @@ struct LightmapErrorOptions {
     std::uint32_t paths = 2;                ///< traced from each point, for each of two references
 };
 
-/// The value that a program finds in a lightmap at a point of a surface: a bilinear lookup at
-/// TEXCOORD_1, and, of harmonics, the irradiance at unit `normal`. std::nullopt where the instance
-/// has no lightmap. `scene` and `charts`, per mesh, are those that the pages belong to.
-std::optional<glm::vec3> lookUpExported(const Scene& scene, const std::vector<MeshCharts>& charts,
+/// The value that a program finds in a lightmap at a point of a surface of the exported scene: a
+/// bilinear lookup at TEXCOORD_1, and, of harmonics, the irradiance at unit `normal`. std::nullopt
+/// where the instance has no lightmap. `cut` is ExportedLightmap::cut.
+std::optional<glm::vec3> lookUpExported(const ExportScene& scene, const CutScene* cut,
                                         const LightmapPages& pages,
-                                        const std::vector<LightmapImage>& images,
-                                        const SurfaceHit& hit, glm::vec3 normal);
+                                        const std::vector<LightmapImage>& images, SurfaceHit hit,
+                                        glm::vec3 normal);
 
 /// Compares what `images` show, one for each page of `map`, with path-traced light, in a picture of
 /// the quantity that texels hold. Each pixel is the mean over the points that it sees on surfaces

@@ -2,6 +2,7 @@
 #include "engine/final_lightmap/cut_scene.h"
 
 #include "engine/core/parallel.h"
+#include "engine/final_lightmap/straight_charts.h"
 
 #include <algorithm>
 #include <utility>
@@ -32,6 +33,10 @@ CutScene cutScene(const Scene& scene, const std::vector<MeshCharts>& charts,
         cut.sources[cutInstances[k]] =
             std::make_shared<const CutSource>(std::move(meshes[k].source));
     }
+    parallelRanges(cut.charts.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t m = begin; m < end; ++m)
+            straightenCharts(cut.charts[m]);
+    });
     cut.scene.assets = std::move(assets);
     return cut;
 }

@@ -32,8 +32,8 @@ struct CutScene {
 /// Per instance and chart; empty, as a whole or for an instance: all stay whole.
 using SceneCuts = std::vector<std::vector<ChartCuts>>;
 
-/// Cuts the meshes of those instances that have cuts, each for itself. `charts` are per mesh, as
-/// Assets::meshes.
+/// Cuts the meshes of those instances that have cuts, each for itself, and straightens all charts.
+/// `charts` are per mesh, as Assets::meshes.
 CutScene cutScene(const Scene& scene, const std::vector<MeshCharts>& charts, const SceneCuts& cuts);
 
 } // namespace limn

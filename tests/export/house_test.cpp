@@ -124,7 +124,7 @@ struct House {
         std::vector<Place> places;
         Excess found;
         for (std::size_t k = 0; k < hits.size(); ++k) {
-            const glm::vec3 e = *lookUpExported(room.scene, room.baked->lightmap, map->pages,
+            const glm::vec3 e = *lookUpExported(room.view(), map->cut.get(), map->pages,
                                                 map->images, hits[k], hits[k].geometricNormal);
             const float shown = (e.x + e.y + e.z) / 3;
             places.push_back({k, shown, shown - truth[k]});

@@ -2,6 +2,7 @@
 #include "engine/final_lightmap/cut_mesh.h"
 
 #include "engine/final_lightmap/chart_pieces.h"
+#include "engine/final_lightmap/straight_charts.h"
 #include "engine/lightmap/charts.h"
 #include "engine/scene/mesh/mesh_topology.h"
 #include "tests/trace/simple_scene.h"
@@ -172,6 +173,27 @@ TEST(CutMesh, LeavesWholeChartsAsTheyAre) {
     EXPECT_EQ(cut.mesh, mesh);
     EXPECT_EQ(cut.charts.chartSize.size(), charts.chartSize.size());
     EXPECT_EQ(cut.charts.chartOfTriangle, charts.chartOfTriangle);
+}
+
+/// A strip that is drawn across its plane gets a rectangle as long and wide as itself.
+TEST(StraightCharts, PutRectanglesAroundStrips) {
+    const Mesh mesh = quad({0, 0, 0}, {4, 0, 3}, {-0.03f, 0, 0.04f});
+    MeshCharts charts = buildCharts(mesh);
+    const MeshCharts before = charts;
+    straightenCharts(charts);
+    ASSERT_EQ(charts.chartSize.size(), 1U);
+    const glm::vec2 size = charts.chartSize[0];
+    EXPECT_NEAR(std::max(size.x, size.y), 5, 1e-4f);
+    EXPECT_NEAR(std::min(size.x, size.y), 0.05f, 1e-4f);
+    for (std::size_t i = 0; i < charts.chartUv.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k) {
+            EXPECT_NEAR(glm::distance(charts.chartUv[i], charts.chartUv[k]),
+                        glm::distance(before.chartUv[i], before.chartUv[k]), 1e-4f);
+            EXPECT_GE(charts.chartUv[i].y, 0);
+        }
+    const MeshCharts straight = charts;
+    straightenCharts(charts);
+    EXPECT_EQ(charts, straight);
 }
 
 std::vector<ResidualSample> samplesOf(float (*squared)(glm::vec2)) {
