@@ -21,12 +21,18 @@ constexpr double kWorth = 0.9;
 
 using Samples = std::span<ResidualSample>;
 
-ResidualSums sumsOf(Samples samples) {
-    ResidualSums sums;
-    for (const ResidualSample& s : samples)
-        sums.add(s);
-    return sums;
-}
+/// The rectangle around samples, which lie in the middles of what they stand for.
+struct Rectangle {
+    glm::vec2 lower{1e30f}, upper{-1e30f};
+
+    explicit Rectangle(Samples samples) {
+        for (const ResidualSample& s : samples) {
+            lower = glm::min(lower, s.uv);
+            upper = glm::max(upper, s.uv);
+        }
+    }
+    glm::vec2 size() const { return upper - lower; }
+};
 
 /// Moves the samples below a cut to the front. Returns the first above.
 Samples::iterator divide(Samples samples, const ChartCuts::Node& cut) {
@@ -36,23 +42,34 @@ Samples::iterator divide(Samples samples, const ChartCuts::Node& cut) {
 
 struct Cutter {
     double dim;
-    const std::function<double(double)>& texels;
+    const PieceDensity& density;
     std::vector<ChartCuts::Node>& nodes;
     std::vector<ResidualSums> pieces;
     std::uint32_t parts = 0;
 
+    ResidualSums sumsOf(Samples samples, glm::vec2 size) const;
     double costOf(const ResidualSums& sums, glm::vec2 size) const;
     std::uint32_t addChildren(std::uint32_t node, ChartCuts::Node cut);
     double halve(std::uint32_t node, Samples samples);
     void cut(std::uint32_t node, Samples samples, std::vector<glm::vec2> crossings);
 };
 
+ResidualSums Cutter::sumsOf(Samples samples, glm::vec2 size) const {
+    ResidualSums sums;
+    for (const ResidualSample& s : samples)
+        sums.add(s);
+    const double perUnit = density.perUnit;
+    sums.rectangle = std::max(double(size.x) * double(size.y) * perUnit * perUnit, sums.area);
+    return sums;
+}
+
 double Cutter::costOf(const ResidualSums& sums, glm::vec2 size) const {
-    const double squared = sums.relative(dim), perUnit = texels(squared);
+    const double squared = sums.relativeInRectangle(dim),
+                 perUnit = density.perUnit * density.factor(squared);
     double border = 1; // texels per texel inside
     for (int k = 0; k < 2; ++k)
         border *= 1 + 1 / std::max(double(size[k]) * perUnit, 0.125);
-    return sums.area * std::sqrt(squared * border);
+    return sums.rectangle * std::sqrt(squared * border);
 }
 
 std::uint32_t Cutter::addChildren(std::uint32_t node, ChartCuts::Node cut) {
@@ -64,13 +81,9 @@ std::uint32_t Cutter::addChildren(std::uint32_t node, ChartCuts::Node cut) {
 
 /// Fills a node and those below it. Returns their cost.
 double Cutter::halve(std::uint32_t node, Samples samples) {
-    const ResidualSums sums = sumsOf(samples);
-    glm::vec2 lower(1e30f), upper(-1e30f);
-    for (const ResidualSample& s : samples) {
-        lower = glm::min(lower, s.uv);
-        upper = glm::max(upper, s.uv);
-    }
-    const glm::vec2 size = upper - lower;
+    const Rectangle around(samples);
+    const glm::vec2 size = around.size();
+    const ResidualSums sums = sumsOf(samples, size);
     const double whole = costOf(sums, size);
     const auto firstPiece = std::uint32_t(pieces.size());
     const std::size_t firstNode = nodes.size();
@@ -78,7 +91,7 @@ double Cutter::halve(std::uint32_t node, Samples samples) {
         const int axis = size.x >= size.y ? 0 : 1;
         ChartCuts::Node cut;
         cut.across[axis] = 1;
-        cut.position = (lower[axis] + upper[axis]) / 2;
+        cut.position = (around.lower[axis] + around.upper[axis]) / 2;
         auto middle = divide(samples, cut);
         if (std::min(middle - samples.begin(), samples.end() - middle) < kMinSamples) {
             const auto median = samples.begin() + std::ssize(samples) / 2;
@@ -137,12 +150,15 @@ double ResidualSums::relative(double dim) const {
     return (squared / (mean * mean + dim * dim) + floor) / area;
 }
 
+double ResidualSums::relativeInRectangle(double dim) const {
+    return rectangle > 0 ? relative(dim) * area / rectangle : relative(dim);
+}
+
 std::vector<ResidualSums> cutIntoPieces(std::vector<ResidualSample>& samples,
                                         const std::vector<glm::vec2>& crossings, double dim,
-                                        const std::function<double(double)>& texels,
-                                        ChartCuts& cuts) {
+                                        const PieceDensity& density, ChartCuts& cuts) {
     cuts.nodes.assign(1, {});
-    Cutter cutter{dim, texels, cuts.nodes, {}};
+    Cutter cutter{dim, density, cuts.nodes, {}};
     cutter.cut(0, samples, crossings);
     if (cutter.pieces.size() == 1)
         cuts.nodes.clear();

@@ -25,6 +25,7 @@ struct ResidualSample {
 /// Sums over samples.
 struct ResidualSums {
     double area = 0, light = 0, squared = 0, floor = 0;
+    double rectangle = 0; ///< area of the rectangle around them, in the unit of `area`
     std::size_t count = 0;
     /// Number of the part of the chart that crossings enclose. Light differs between parts.
     std::uint32_t part = 0;
@@ -33,19 +34,27 @@ struct ResidualSums {
     /// Mean squared error with a factor of 1, relative to the light of the samples, or to `dim`
     /// where that is more.
     double relative(double dim) const;
+    /// The same times the part of the rectangle that the samples cover: texels of the rectangle are
+    /// worth as much where it is that part which has this error.
+    double relativeInRectangle(double dim) const;
+};
+
+/// The density of texels in a chart.
+struct PieceDensity {
+    double perUnit = 1;                   ///< with a factor of 1 [texels / object unit]
+    std::function<double(double)> factor; ///< of a piece, by its relativeInRectangle()
 };
 
 /// Cuts a chart where its parts need different densities. To have the least squared error with a
-/// number of texels, a part of area A and squared error e per texel gets texels in proportion to A
-/// sqrt(e), as if it cost that much; cutting halves costs less where they differ, less the texels
-/// that both have along the cut. The pieces are those of least cost among all that halving a chart
-/// again and again makes. `texels`: texels per object unit that a piece of such a squared error
-/// gets. Before, a chart is cut along the lines in which other surfaces cross it, on which
-/// `crossings` lie [object units]: light differs on both sides, however many texels there are.
-/// Sorts `samples`. Returns what each piece sums up to, by its number.
+/// number of texels, a piece with an area A, a rectangle of area R and a squared error e per texel
+/// gets texels in proportion to sqrt(A R e), as if it cost that much. Halves cost less where they
+/// differ, or where less of their rectangles is empty, but for the texels that both have along the
+/// cut. The pieces are those of least cost among all that halving a chart again and again makes.
+/// Before, a chart is cut along the lines in which other surfaces cross it, on which `crossings`
+/// lie [object units]: light differs on both sides, however many texels there are. Sorts `samples`.
+/// Returns what each piece sums up to, by its number.
 std::vector<ResidualSums> cutIntoPieces(std::vector<ResidualSample>& samples,
                                         const std::vector<glm::vec2>& crossings, double dim,
-                                        const std::function<double(double)>& texels,
-                                        ChartCuts& cuts);
+                                        const PieceDensity& density, ChartCuts& cuts);
 
 } // namespace limn

@@ -48,6 +48,9 @@ static TexelSide chooseSide(const SideFinder& sides, const CutScene& cut, AtlasT
     return side;
 }
 
+/// An atlas may have so many times the texels that it is to have, for those that no lookup reads.
+static constexpr double kWaste = 1.25;
+
 /// The longest side that has to fit into a texture.
 static std::uint32_t sideOf(const Scene& scene, const LightmapLayout& layout, bool onePage) {
     return onePage ? std::max(layout.width, layout.height) : largestChart(scene, layout).side;
@@ -63,9 +66,12 @@ static Atlas layAtlas(const Scene& scene, const std::vector<MeshCharts>& charts,
     for (;;) {
         Atlas atlas = buildAtlas(scene, charts, settings, factors, progress);
         const std::uint32_t side = sideOf(scene, atlas.layout, count.onePage);
-        if (progress.cancelled() || side <= count.maxSide || settings.lightmapCaches == 1)
+        const double texels = double(atlas.layout.width) * atlas.layout.height,
+                     allowed = kWaste * double(count.texels);
+        if (progress.cancelled() || settings.lightmapCaches == 1 ||
+            (side <= count.maxSide && texels <= allowed))
             return atlas;
-        const double shrunk = std::pow(double(count.maxSide) / side, 2);
+        const double shrunk = std::min(std::pow(double(count.maxSide) / side, 2), allowed / texels);
         settings.lightmapCaches =
             std::max(std::uint32_t(settings.lightmapCaches * std::min(shrunk, 0.95)), 1U);
     }

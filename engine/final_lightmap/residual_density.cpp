@@ -158,15 +158,14 @@ void DensityFinder::adapt(Trial& trial, bool cutCharts) {
                 std::vector<ResidualSample>& samples = trial.samples[i][c];
                 std::vector<ResidualSums> pieces(1);
                 if (cutCharts)
-                    pieces = cutIntoPieces(
-                        samples, crossings[i][c], dim,
-                        [&](double squared) { return perUnit * factorOf(squared); }, cuts[i][c]);
+                    pieces = cutIntoPieces(samples, crossings[i][c], dim, {perUnit, factorOf},
+                                           cuts[i][c]);
                 else
                     for (const ResidualSample& s : samples)
                         pieces[0].add(s);
                 for (const ResidualSums& sums : pieces)
                     pieceFactors[i][c].push_back(
-                        sums.area > 0 ? stepped(factorOf(sums.relative(dim)), sums.part)
+                        sums.area > 0 ? stepped(factorOf(sums.relativeInRectangle(dim)), sums.part)
                                       : float(start));
             }
         }

@@ -202,7 +202,7 @@ std::vector<ResidualSample> samplesOf(float (*squared)(glm::vec2)) {
         for (float y = 0.05f; y < 8; y += 0.1f)
             samples.push_back({.uv = {x, y},
                                .width = 0.2f,
-                               .area = 0.01f,
+                               .area = 0.25f,
                                .light = 1,
                                .squared = squared({x, y}),
                                .floor = 1e-4f});
@@ -210,7 +210,7 @@ std::vector<ResidualSample> samplesOf(float (*squared)(glm::vec2)) {
 }
 
 TEST(ChartPieces, CutsWhereErrorsDiffer) {
-    const auto texels = [](double squared) { return 20 * std::sqrt(std::sqrt(squared)); };
+    const PieceDensity texels{5, [](double squared) { return 4 * std::sqrt(std::sqrt(squared)); }};
     ChartCuts cuts;
     std::vector<ResidualSample> even = samplesOf([](glm::vec2) { return 0.01f; });
     EXPECT_EQ(cutIntoPieces(even, {}, 1, texels, cuts).size(), 1U);
@@ -220,7 +220,7 @@ TEST(ChartPieces, CutsWhereErrorsDiffer) {
     const std::vector<ResidualSums> pieces = cutIntoPieces(corner, {}, 1, texels, cuts);
     EXPECT_GT(pieces.size(), 2U);
     const ResidualSums& inside = pieces[cuts.pieceAt({1, 1})];
-    EXPECT_NEAR(inside.area, 4, 1e-3);
+    EXPECT_NEAR(inside.area, 4 * 25, 0.1);
     EXPECT_NE(cuts.pieceAt({1, 1}), cuts.pieceAt({3, 1}));
     EXPECT_NE(cuts.pieceAt({1, 1}), cuts.pieceAt({1, 3}));
     // A squared error of 1 over the mean squared light, 1, and dim light squared, 1.
@@ -229,7 +229,7 @@ TEST(ChartPieces, CutsWhereErrorsDiffer) {
 
 /// A wall as thick as half a texel stands across a chart, at an angle.
 TEST(ChartPieces, CutsAlongWhatCrossesAChart) {
-    const auto texels = [](double) { return 5.; };
+    const PieceDensity texels{5, [](double) { return 1.; }};
     const glm::vec2 across = glm::normalize(glm::vec2(3, 1)), along(-across.y, across.x);
     std::vector<glm::vec2> crossings;
     for (float s = -6; s < 6; s += 0.07f)
