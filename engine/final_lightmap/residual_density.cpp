@@ -22,7 +22,8 @@ constexpr double kDim = 0.5, kFloor = 0.01;
 /// A trial has this part of the texels: its residual is larger and found faster.
 constexpr std::uint32_t kTrial = 2;
 /// Range of a chart's factor, relative to that before. The light that is known here is that of a
-/// bake, not the final one, so whole charts change less than pieces, which a bake does not have.
+/// bake, which has next to no detail on small charts. Those that are large enough to be cut have
+/// it.
 constexpr double kMinChange = 0.7, kMaxChange = 2, kMinPiece = 0.25, kMaxPiece = 16;
 constexpr int kTrials = 2, kCutTrials = 3;
 
@@ -149,11 +150,9 @@ void DensityFinder::adapt(Trial& trial, bool cutCharts) {
             pieceFactors[i].resize(whole.chartSize.size());
             for (std::size_t c = 0; c < whole.chartSize.size(); ++c) {
                 const double start = before[i].empty() ? 1 : double(before[i][c]);
-                const double low = cutCharts ? kMinPiece : kMinChange,
-                             high = cutCharts ? kMaxPiece : kMaxChange;
                 const auto factorOf = [&](double squared) {
-                    return std::clamp(scale * std::sqrt(std::sqrt(squared)), low * start,
-                                      high * start);
+                    return std::clamp(scale * std::sqrt(std::sqrt(squared)), kMinPiece * start,
+                                      kMaxPiece * start);
                 };
                 std::vector<ResidualSample>& samples = trial.samples[i][c];
                 std::vector<ResidualSums> pieces(1);
@@ -163,10 +162,12 @@ void DensityFinder::adapt(Trial& trial, bool cutCharts) {
                 else
                     for (const ResidualSample& s : samples)
                         pieces[0].add(s);
-                for (const ResidualSums& sums : pieces)
-                    pieceFactors[i][c].push_back(
-                        sums.area > 0 ? stepped(factorOf(sums.relativeInRectangle(dim)), sums.part)
-                                      : float(start));
+                for (const ResidualSums& sums : pieces) {
+                    double factor = sums.area > 0 ? factorOf(sums.relativeInRectangle(dim)) : start;
+                    if (pieces.size() == 1)
+                        factor = std::clamp(factor, kMinChange * start, kMaxChange * start);
+                    pieceFactors[i][c].push_back(stepped(factor, sums.part));
+                }
             }
         }
     });
