@@ -8,11 +8,14 @@ namespace limn {
 /// Weight of a texel that has no surface inside, and is known by the closest point of one. That
 /// point stands for next to no area; at the edge of a moulding it may look through a crack.
 static constexpr float kClosestWeight = 0.02f;
+/// Weight of a texel in a narrow gap, beside that of an open one. Texels inside walls are such.
+static constexpr float kNarrowWeight = 0.02f;
 
 std::vector<FittedPoint> fittedPoints(const LitTexels& lit) {
     std::vector<FittedPoint> points;
     for (std::uint32_t t = 0; t < lit.atlas.texels.size(); ++t)
-        for (std::uint32_t k = 0; lit.open[t] != 0 && k < lit.atlas.texels[t].count; ++k)
+        for (std::uint32_t k = 0; lit.open[t] != Openness::Closed && k < lit.atlas.texels[t].count;
+             ++k)
             points.push_back({t, k});
     return points;
 }
@@ -32,7 +35,8 @@ TexelFitInput fitInput(const Scene& scene, const LitTexels& lit,
         const AtlasTexel& texel = lit.atlas.texels[p.texel];
         fit.points.push_back(lookUpTexels(lit, texel.instance, scene.instances[texel.instance].mesh,
                                           texel.points[p.point], texel.back != 0));
-        fit.weights.push_back(texel.count == 1 ? kClosestWeight : 1 / float(texel.count));
+        fit.weights.push_back((texel.count == 1 ? kClosestWeight : 1 / float(texel.count)) *
+                              (lit.open[p.texel] == Openness::Narrow ? kNarrowWeight : 1));
     }
     const std::uint32_t width = lit.atlas.layout.width;
     for (std::uint32_t t = 0; t < lit.atlas.texels.size(); ++t) {

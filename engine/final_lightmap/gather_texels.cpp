@@ -99,7 +99,7 @@ struct TexelGather {
 
 std::vector<PointOfTexel> TexelGather::pointsOf(std::uint32_t texel) const {
     std::vector<PointOfTexel> points;
-    if (lit.open[texel] == 0)
+    if (lit.open[texel] == Openness::Closed)
         return points;
     const AtlasTexel& t = lit.atlas.texels[texel];
     for (std::uint32_t k = 0; k < t.count; ++k) {
@@ -119,7 +119,7 @@ double TexelGather::meanLight() const {
     for (std::size_t t = 0; t < lit.open.size(); t += step) {
         const Hit hit = hitOf(scene.trace.scene(), cut, lit, {std::uint32_t(t), 0});
         const std::optional<SurfacePoint> p = surfacePoint(scene.trace, hit);
-        if (lit.open[t] == 0 || !p)
+        if (lit.open[t] == Openness::Closed || !p)
             continue;
         sum += greyOf(
             sampleIrradiance(fieldPoint(scene.field, scene.layout, scene.trace.scene(), hit, *p)));
@@ -267,7 +267,7 @@ std::optional<GatheredTexels> gatherTexels(const GatherScene& scene, const CutSc
     result.harmonics.resize(coefficients * texels);
     parallelRanges(texels, 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
-            if (lit.open[t] == 0)
+            if (lit.open[t] == Openness::Closed)
                 continue;
             const std::uint32_t number = lit.atlas.texels[t].texel;
             const glm::uvec2 place(number % size.x, number / size.x);

@@ -32,12 +32,15 @@ static bool areTogether(const SideFinder& sides, const CutScene& cut, const Atla
            side[a].open && side[b].open && sides.sees(side[a].points[0], side[b].points[0]);
 }
 
-/// Keeps those points of a texel that its side has.
-static TexelSide chooseSide(const SideFinder& sides, const CutScene& cut, AtlasTexel& texel) {
+/// Keeps those points of a texel that its side has, from where at least something within `reach` of
+/// the texel's width is seen.
+static TexelSide chooseSide(const SideFinder& sides, const CutScene& cut, AtlasTexel& texel,
+                            float reach) {
     AtlasTexel before = texel; // with its points in the scene before it was cut
     for (std::uint32_t k = 0; k < texel.count; ++k)
         before.points[k] = cut.toSource(texel.instance, texel.points[k]);
     AtlasTexel kept = before;
+    kept.width *= reach;
     TexelSide side = sides.choose(kept);
     const AtlasTexel all = texel;
     texel.count = kept.count;
@@ -46,6 +49,19 @@ static TexelSide chooseSide(const SideFinder& sides, const CutScene& cut, AtlasT
         texel.points[k] = all.points[std::size_t(same - before.points.begin())];
     }
     return side;
+}
+
+/// The same with ever shorter rays where no point is open: a piece that ends in a narrow gap is
+/// seen, however wide its texels are.
+static Openness chooseSide(const SideFinder& sides, const CutScene& cut, AtlasTexel& texel,
+                           TexelSide& side) {
+    constexpr float kCloser = 0.25f, kClosest = 0.01f;
+    side = chooseSide(sides, cut, texel, 1.f);
+    if (side.open)
+        return Openness::Open;
+    for (float reach = kCloser; reach > kClosest && !side.open; reach *= kCloser)
+        side = chooseSide(sides, cut, texel, reach);
+    return side.open ? Openness::Narrow : Openness::Closed;
 }
 
 /// An atlas may have so many times the texels that it is to have, for those that no lookup reads.
@@ -86,7 +102,7 @@ LitTexels layLitTexels(const CutScene& cut, const ChartFactors& factors, const L
     lit.texelAt.assign(std::size_t(layout.width) * layout.height, kNoTexel);
     for (std::uint32_t i = 0; i < lit.atlas.texels.size(); ++i)
         lit.texelAt[lit.atlas.texels[i].texel] = i;
-    lit.open.assign(lit.atlas.texels.size(), 1);
+    lit.open.assign(lit.atlas.texels.size(), Openness::Open);
     lit.shares.assign(lit.texelAt.size(), 0);
     return lit;
 }
@@ -101,13 +117,12 @@ void findOpenTexels(const TraceScene& trace, const std::vector<MeshCharts>& char
     const SideFinder sides{trace, before, rays};
     std::vector<TexelSide> side(lit.atlas.texels.size());
     constexpr std::size_t kGrain = 64;
-    const bool done = parallelRanges(side.size(), kGrain, progress, "texels",
-                                     [&](std::size_t begin, std::size_t end) {
-                                         for (std::size_t t = begin; t < end; ++t) {
-                                             side[t] = chooseSide(sides, cut, lit.atlas.texels[t]);
-                                             lit.open[t] = side[t].open ? 1 : 0;
-                                         }
-                                     });
+    const bool done = parallelRanges(
+        side.size(), kGrain, progress, "texels", [&](std::size_t begin, std::size_t end) {
+            for (std::size_t t = begin; t < end; ++t) {
+                lit.open[t] = chooseSide(sides, cut, lit.atlas.texels[t], side[t]);
+            }
+        });
     if (!done)
         return;
     parallelRanges(

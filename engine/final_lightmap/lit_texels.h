@@ -11,13 +11,20 @@
 
 namespace limn {
 
+/// Whether light that a texel shows can be seen.
+enum class Openness : std::uint8_t {
+    Closed, ///< nothing is seen from its points
+    Narrow, ///< its points are in gaps narrower than the texel
+    Open
+};
+
 /// Texels of an exported lightmap, which programs look up bilinearly without LightmapLayout::snaps.
 struct LitTexels {
     /// Its layout has no snaps. Each texel keeps points on one side of all walls only, in
     /// proportion to how open each of them is, as findTexelSides() chooses them.
     Atlas atlas;
     std::vector<std::uint32_t> texelAt; ///< index into Atlas::texels, or kNoTexel, at y * width + x
-    std::vector<std::uint8_t> open;     ///< per texel: whether any of its points is
+    std::vector<Openness> open;         ///< per texel
     /// Sets of SharesNoise at y * width + x: neighbours of one chart with no wall between them.
     std::vector<std::uint8_t> shares;
 };

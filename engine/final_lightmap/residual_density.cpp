@@ -24,7 +24,7 @@ constexpr std::uint32_t kTrial = 2;
 /// Range of a chart's factor, relative to that before. The light that is known here is that of a
 /// bake, which has next to no detail on small charts. Those that are large enough to be cut have
 /// it.
-constexpr double kMinChange = 0.7, kMaxChange = 2, kMinPiece = 0.25, kMaxPiece = 16;
+constexpr double kMinChange = 0.7, kMaxChange = 2, kMinPiece = 0.7, kMaxPiece = 16;
 constexpr int kTrials = 2, kCutTrials = 3;
 
 /// The samples of an instance's charts before any is cut.
