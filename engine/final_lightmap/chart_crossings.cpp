@@ -3,7 +3,6 @@
 
 #include "engine/core/parallel.h"
 #include "engine/final_lightmap/texel_lookups.h"
-#include "engine/lightmap/plain_lightmap.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -33,7 +32,7 @@ struct CrossingFinder {
     }
     void look(std::uint32_t instance, bool back, const MeshPoint& from, const MeshPoint& to,
               std::vector<Crossing>& found) const;
-    void lookAround(const AtlasTexel& texel, std::vector<Crossing>& found) const;
+    void lookAround(std::uint32_t t, std::vector<Crossing>& found) const;
 };
 
 /// Looks from one point of a chart to another.
@@ -64,9 +63,8 @@ void CrossingFinder::look(std::uint32_t instance, bool back, const MeshPoint& fr
 
 /// Looks from the texel's first point to its others and to the next texels, and back: the two faces
 /// of a wall are two lines.
-void CrossingFinder::lookAround(const AtlasTexel& texel, std::vector<Crossing>& found) const {
-    const std::vector<AtlasTexel>& texels = lit.atlas.texels;
-    const std::uint32_t width = lit.atlas.layout.width, height = lit.atlas.layout.height;
+void CrossingFinder::lookAround(std::uint32_t t, std::vector<Crossing>& found) const {
+    const AtlasTexel& texel = lit.atlas.texels[t];
     const MeshPoint first = cut.toSource(texel.instance, texel.points[0]);
     const auto lookAt = [&](const MeshPoint& point) {
         const MeshPoint other = cut.toSource(texel.instance, point);
@@ -75,14 +73,8 @@ void CrossingFinder::lookAround(const AtlasTexel& texel, std::vector<Crossing>& 
     };
     for (std::uint32_t k = 1; k < texel.count; ++k)
         lookAt(texel.points[k]);
-    const auto lookAtNext = [&](bool isInside, std::uint32_t place) {
-        const std::uint32_t next = isInside ? lit.texelAt[place] : kNoTexel;
-        if (next != kNoTexel && texels[next].instance == texel.instance &&
-            texels[next].back == texel.back)
-            lookAt(texels[next].points[0]);
-    };
-    lookAtNext(texel.texel % width + 1 < width, texel.texel + 1);
-    lookAtNext(texel.texel / width + 1 < height, texel.texel + width);
+    forNextTexels(
+        lit, t, [&](std::uint32_t next, SharesNoise) { lookAt(lit.atlas.texels[next].points[0]); });
 }
 
 } // namespace
@@ -99,12 +91,12 @@ ChartCrossings findCrossings(const TraceScene& trace, const std::vector<MeshChar
                              const CutScene& cut, const LitTexels& lit, const Progress& progress) {
     constexpr std::size_t kBlock = 256; // texels
     const CrossingFinder finder{trace, charts, cut, lit};
-    const std::vector<AtlasTexel>& texels = lit.atlas.texels;
-    std::vector<std::vector<Crossing>> found((texels.size() + kBlock - 1) / kBlock);
+    const std::size_t texels = lit.atlas.texels.size();
+    std::vector<std::vector<Crossing>> found((texels + kBlock - 1) / kBlock);
     parallelRanges(found.size(), 1, progress, "texels", [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b)
-            for (std::size_t t = b * kBlock; t < std::min(texels.size(), (b + 1) * kBlock); ++t)
-                finder.lookAround(texels[t], found[b]);
+            for (std::size_t t = b * kBlock; t < std::min(texels, (b + 1) * kBlock); ++t)
+                finder.lookAround(std::uint32_t(t), found[b]);
     });
     ChartCrossings crossings(trace.scene().instances.size());
     for (std::uint32_t i = 0; i < crossings.size(); ++i)

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <span>
 
 #include <glm/common.hpp>
 
@@ -55,9 +54,7 @@ struct Cutter {
 };
 
 ResidualSums Cutter::sumsOf(Samples samples, glm::vec2 size) const {
-    ResidualSums sums;
-    for (const ResidualSample& s : samples)
-        sums.add(s);
+    ResidualSums sums = sumOf(samples);
     const double perUnit = density.perUnit;
     sums.rectangle = std::max(double(size.x) * double(size.y) * perUnit * perUnit, sums.area);
     return sums;
@@ -135,12 +132,15 @@ void Cutter::cut(std::uint32_t node, Samples samples, std::vector<glm::vec2> cro
 
 } // namespace
 
-void ResidualSums::add(const ResidualSample& s) {
-    area += double(s.area);
-    light += double(s.area) * double(s.light);
-    squared += double(s.area) * double(s.squared);
-    floor += double(s.area) * double(s.floor);
-    ++count;
+ResidualSums sumOf(std::span<const ResidualSample> samples) {
+    ResidualSums sums;
+    for (const ResidualSample& s : samples) {
+        sums.area += double(s.area);
+        sums.light += double(s.area) * double(s.light);
+        sums.squared += double(s.area) * double(s.squared);
+        sums.floor += double(s.area) * double(s.floor);
+    }
+    return sums;
 }
 
 double ResidualSums::relative(double dim) const {

@@ -4,6 +4,7 @@
 #include "engine/final_lightmap/cut_mesh.h"
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -26,18 +27,17 @@ struct ResidualSample {
 struct ResidualSums {
     double area = 0, light = 0, squared = 0, floor = 0;
     double rectangle = 0; ///< area of the rectangle around them, in the unit of `area`
-    std::size_t count = 0;
     /// Number of the part of the chart that crossings enclose. Light differs between parts.
     std::uint32_t part = 0;
 
-    void add(const ResidualSample& s);
     /// Mean squared error with a factor of 1, relative to the light of the samples, or to `dim`
     /// where that is more.
     double relative(double dim) const;
-    /// The same times the part of the rectangle that the samples cover: texels of the rectangle are
-    /// worth as much where it is that part which has this error.
+    /// The same as a mean over the whole rectangle, whose empty part has no error.
     double relativeInRectangle(double dim) const;
 };
+
+ResidualSums sumOf(std::span<const ResidualSample> samples);
 
 /// The density of texels in a chart.
 struct PieceDensity {
@@ -51,8 +51,8 @@ struct PieceDensity {
 /// differ, or where less of their rectangles is empty, but for the texels that both have along the
 /// cut. The pieces are those of least cost among all that halving a chart again and again makes.
 /// Before, a chart is cut along the lines in which other surfaces cross it, on which `crossings`
-/// lie [object units]: light differs on both sides, however many texels there are. Sorts `samples`.
-/// Returns what each piece sums up to, by its number.
+/// lie [object units]: light differs on both sides, however many texels there are. Reorders
+/// `samples`. Returns what each piece sums up to, by its number.
 std::vector<ResidualSums> cutIntoPieces(std::vector<ResidualSample>& samples,
                                         const std::vector<glm::vec2>& crossings, double dim,
                                         const PieceDensity& density, ChartCuts& cuts);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/final_lightmap/cut_mesh.h"
 
+#include "engine/lightmap/charts.h"
 #include "engine/scene/mesh/mesh_topology.h"
 
 #include <algorithm>
@@ -17,8 +18,7 @@ namespace limn {
 
 namespace {
 
-/// Distances from a cut below this part of a triangle's extent, and from an edge below this part of
-/// a triangle, are none.
+/// Points closer to a cut, an edge or each other than this part of a triangle's size lie on it.
 constexpr double kTiny = 1e-6;
 /// Points of an edge closer than this part of its length are one.
 constexpr double kClose = 1e-4;
@@ -41,6 +41,19 @@ struct Piece {
 
 glm::dvec2 cornerAt(int k) {
     return {k == 1 ? 1 : 0, k == 2 ? 1 : 0};
+}
+
+/// The corner with these barycentrics; -1: none.
+int cornerOf(glm::dvec2 b) {
+    for (int k = 0; k < 3; ++k)
+        if (b == cornerAt(k))
+            return k;
+    return -1;
+}
+
+/// A whole triangle.
+Polygon wholeTriangle() {
+    return {{cornerAt(0), -1, 0}, {cornerAt(1), -1, 0}, {cornerAt(2), -1, 0}};
 }
 
 /// Weight of corner k.
@@ -125,7 +138,7 @@ PieceVertex MeshCutter::crossing(std::uint32_t t, const PieceVertex& a, const Pi
     return {glm::mix(a.barycentric, b.barycentric, share), -1, 0};
 }
 
-/// Cuts a convex polygon of a triangle as a node of its chart's cuts says.
+/// Cuts a convex part of a triangle along the cut of a node, and along those below it.
 void MeshCutter::cutPolygon(std::uint32_t t, std::uint32_t node, Polygon polygon,
                             std::vector<Piece>& out) {
     const ChartCuts::Node& cut = m_cuts[m_charts.chartOfTriangle[t]].nodes[node];
@@ -266,9 +279,8 @@ std::uint32_t MeshCutter::blend(std::uint32_t t, glm::dvec2 b) {
 }
 
 std::uint32_t MeshCutter::addVertex(std::uint32_t t, const PieceVertex& v) {
-    for (int k = 0; k < 3; ++k)
-        if (v.barycentric == cornerAt(k))
-            return vertexOf(t, k);
+    if (const int corner = cornerOf(v.barycentric); corner >= 0)
+        return vertexOf(t, corner);
     if (v.edge < 0) {
         const auto [entry, isNew] =
             m_innerVertices.try_emplace({v.barycentric.x, v.barycentric.y}, 0);
@@ -299,8 +311,9 @@ void MeshCutter::addTriangle(std::uint32_t t, std::uint32_t piece, const PieceVe
     m_pieceOfTriangle.push_back(piece);
 }
 
-/// Adds a convex polygon, some of whose vertices may lie on straight sides, as triangles around the
-/// vertex, or else the middle, where they are least thin.
+/// Triangulates a convex polygon, some of whose vertices may lie on straight sides: as a fan around
+/// the vertex whose smallest triangle is largest, or around the middle where every such fan has a
+/// triangle of next to no area.
 void MeshCutter::addPolygon(std::uint32_t t, std::uint32_t piece, const Polygon& polygon) {
     const std::size_t n = polygon.size();
     const auto areaOf = [](const PieceVertex& a, const PieceVertex& b, const PieceVertex& c) {
@@ -345,8 +358,7 @@ void MeshCutter::addPieces(std::uint32_t t) {
             if (v.edge >= 0) {
                 v.along = joined(keyOf(t, v.edge), v.along);
                 v.barycentric = onEdge(t, v.edge, v.along);
-            } else if (std::ranges::none_of(std::array{0, 1, 2},
-                                            [&](int k) { return v.barycentric == cornerAt(k); })) {
+            } else if (cornerOf(v.barycentric) < 0) {
                 const auto same = std::ranges::find_if(inner, [&](const PieceVertex& other) {
                     return glm::distance(other.barycentric, v.barycentric) < kTiny;
                 });
@@ -365,62 +377,44 @@ void MeshCutter::addPieces(std::uint32_t t) {
     const std::size_t before = m_out.source.triangle.size();
     for (const Piece& piece : m_pieces[t])
         addPolygon(t, piece.piece, withPointsBetween(t, piece.polygon, inner));
-    if (m_out.source.triangle.size() == before) // without area
-        addTriangle(t, m_pieces[t].front().piece, {cornerAt(0), -1, 0}, {cornerAt(1), -1, 0},
-                    {cornerAt(2), -1, 0});
+    if (m_out.source.triangle.size() == before) { // without area
+        const Polygon whole = wholeTriangle();
+        addTriangle(t, m_pieces[t].front().piece, whole[0], whole[1], whole[2]);
+    }
 }
 
-/// Numbers the pieces that have triangles, and makes a vertex for each one's use of a vertex.
+/// Numbers the pieces that have triangles, and makes charts of them.
 void MeshCutter::collectCharts() {
-    MeshCharts& charts = m_out.charts;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> chartOf;
+    using Source = std::pair<std::uint32_t, std::uint32_t>; // chart and piece
+    const auto sourceOf = [&](std::size_t i) {
+        return Source(m_charts.chartOfTriangle[m_out.source.triangle[i]], m_pieceOfTriangle[i]);
+    };
+    std::map<Source, std::uint32_t> numbers;
     for (std::size_t i = 0; i < m_pieceOfTriangle.size(); ++i)
-        chartOf.try_emplace(
-            {m_charts.chartOfTriangle[m_out.source.triangle[i]], m_pieceOfTriangle[i]}, 0);
-    for (auto& [source, chart] : chartOf) {
+        numbers.try_emplace(sourceOf(i), 0);
+    for (auto& [source, chart] : numbers) {
         chart = std::uint32_t(m_out.source.charts.size());
         m_out.source.charts.push_back({source.first, source.second});
     }
-    std::vector<glm::vec2> lower(chartOf.size(), glm::vec2(1e30f)),
-        upper(chartOf.size(), glm::vec2(-1e30f));
-    std::unordered_map<std::uint64_t, std::uint32_t> copies; // by chart and vertex
-    std::vector<std::uint32_t> chartOfCopy;
+    std::vector<std::uint32_t> chartOfTriangle;
+    std::vector<glm::vec2> corner;
     for (std::size_t i = 0; i < m_pieceOfTriangle.size(); ++i) {
         const std::uint32_t t = m_out.source.triangle[i];
-        const std::uint32_t chart = chartOf.at({m_charts.chartOfTriangle[t], m_pieceOfTriangle[i]});
-        charts.chartOfTriangle.push_back(chart);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t vertex = m_out.mesh.indices[3 * i + k];
-            const auto [entry, isNew] = copies.try_emplace(
-                std::uint64_t(chart) << 32 | vertex, std::uint32_t(charts.sourceVertex.size()));
-            if (isNew) {
-                const glm::dvec2 b = m_out.source.corners[i][k];
-                const glm::vec2 uv(uvOf(t, 0) * weightOf(b, 0) + uvOf(t, 1) * b.x +
-                                   uvOf(t, 2) * b.y);
-                charts.sourceVertex.push_back(vertex);
-                charts.chartUv.push_back(uv);
-                chartOfCopy.push_back(chart);
-                lower[chart] = glm::min(lower[chart], uv);
-                upper[chart] = glm::max(upper[chart], uv);
-            }
-            charts.indices.push_back(entry->second);
-        }
+        chartOfTriangle.push_back(numbers.at(sourceOf(i)));
+        for (const glm::dvec2 b : m_out.source.corners[i])
+            corner.emplace_back(uvOf(t, 0) * weightOf(b, 0) + uvOf(t, 1) * b.x + uvOf(t, 2) * b.y);
     }
-    for (std::size_t v = 0; v < charts.chartUv.size(); ++v)
-        charts.chartUv[v] -= lower[chartOfCopy[v]];
-    for (std::size_t c = 0; c < lower.size(); ++c)
-        charts.chartSize.push_back(upper[c] - lower[c]);
+    m_out.charts = splitIntoCharts(m_out.mesh, std::move(chartOfTriangle), corner);
 }
 
 CutMesh MeshCutter::run() {
     const auto triangles = std::uint32_t(m_mesh.triangleCount());
-    const Polygon whole = {{cornerAt(0), -1, 0}, {cornerAt(1), -1, 0}, {cornerAt(2), -1, 0}};
     m_pieces.resize(triangles);
     for (std::uint32_t t = 0; t < triangles; ++t) {
         if (m_cuts[m_charts.chartOfTriangle[t]].nodes.empty())
-            m_pieces[t].push_back({0, whole});
+            m_pieces[t].push_back({0, wholeTriangle()});
         else
-            cutPolygon(t, 0, whole, m_pieces[t]);
+            cutPolygon(t, 0, wholeTriangle(), m_pieces[t]);
     }
     joinEdgePoints();
     m_out.mesh = m_mesh;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/final_lightmap/fit_input.h"
 
-#include "engine/lightmap/plain_lightmap.h"
-
 namespace limn {
 
 /// Weight of a texel that has no surface inside, and is known by the closest point of one. That
@@ -38,19 +36,9 @@ TexelFitInput fitInput(const Scene& scene, const LitTexels& lit,
         fit.weights.push_back((texel.count == 1 ? kClosestWeight : 1 / float(texel.count)) *
                               (lit.open[p.texel] == Openness::Narrow ? kNarrowWeight : 1));
     }
-    const std::uint32_t width = lit.atlas.layout.width;
-    for (std::uint32_t t = 0; t < lit.atlas.texels.size(); ++t) {
-        const std::uint32_t place = lit.atlas.texels[t].texel;
-        const auto add = [&](std::uint32_t next) {
-            if (next < lit.texelAt.size() && lit.texelAt[next] != kNoTexel &&
-                lit.atlas.texels[lit.texelAt[next]].instance == lit.atlas.texels[t].instance &&
-                lit.atlas.texels[lit.texelAt[next]].back == lit.atlas.texels[t].back)
-                fit.neighbours.emplace_back(t, lit.texelAt[next]);
-        };
-        if (place % width + 1 < width)
-            add(place + 1);
-        add(place + width);
-    }
+    for (std::uint32_t t = 0; t < lit.atlas.texels.size(); ++t)
+        forNextTexels(
+            lit, t, [&](std::uint32_t next, SharesNoise) { fit.neighbours.emplace_back(t, next); });
     fit.seams = findSeams(scene, lit);
     return fit;
 }

@@ -21,7 +21,7 @@ static constexpr int kMaxSteps = 200;
 
 using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 
-struct TexelFit::Solver {
+struct TexelFit::System {
     Matrix rows;
     std::vector<double> pointScale; ///< square roots of the points' weights
     std::vector<std::pair<std::uint32_t, std::uint32_t>> neighbours;
@@ -61,8 +61,8 @@ struct RowWriter {
 
 } // namespace
 
-TexelFit::TexelFit(const TexelFitInput& input) : m_solver(std::make_unique<Solver>()) {
-    Solver& s = *m_solver;
+TexelFit::TexelFit(const TexelFitInput& input) : m_system(std::make_unique<System>()) {
+    System& s = *m_system;
     const std::size_t rows = input.points.size() + input.neighbours.size() + input.seams.size();
     s.rows.resize(Eigen::Index(rows), Eigen::Index(input.texels));
     s.rows.reserve(Eigen::Index(4 * input.points.size() + 2 * input.neighbours.size() +
@@ -93,7 +93,7 @@ TexelFit::~TexelFit() = default;
 
 std::vector<float> TexelFit::solve(const std::vector<float>& light,
                                    const std::vector<float>& first) const {
-    const Solver& s = *m_solver;
+    const System& s = *m_system;
     Eigen::VectorXd wanted = Eigen::VectorXd::Zero(s.rows.rows());
     for (std::size_t p = 0; p < light.size(); ++p)
         wanted[Eigen::Index(p)] = s.pointScale[p] * double(light[p]);

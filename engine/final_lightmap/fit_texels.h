@@ -41,8 +41,8 @@ public:
                                  const std::vector<glm::vec3>& first) const;
 
 private:
-    struct Solver;
-    std::unique_ptr<Solver> m_solver;
+    struct System;
+    std::unique_ptr<System> m_system;
 };
 
 } // namespace limn

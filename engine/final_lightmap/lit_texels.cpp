@@ -13,29 +13,21 @@
 
 namespace limn {
 
-/// The chart of a texel's points, or kMixedCharts.
 static std::uint32_t chartOf(const CutScene& cut, const AtlasTexel& texel) {
-    const std::vector<std::uint32_t>& charts =
-        cut.charts[cut.scene.instances[texel.instance].mesh].chartOfTriangle;
-    const std::uint32_t chart = charts[texel.points[0].triangle];
-    for (std::uint32_t k = 1; k < texel.count; ++k)
-        if (charts[texel.points[k].triangle] != chart)
-            return kMixedCharts;
-    return chart;
+    return chartOfTexel(cut.charts[cut.scene.instances[texel.instance].mesh], texel);
 }
 
-/// Whether texels are of one surface, and nothing stands between them.
+/// Whether texels of one side of an instance are of one chart, and nothing stands between them.
 static bool areTogether(const SideFinder& sides, const CutScene& cut, const Atlas& atlas,
                         const std::vector<TexelSide>& side, std::uint32_t a, std::uint32_t b) {
     const AtlasTexel &x = atlas.texels[a], &y = atlas.texels[b];
-    return x.instance == y.instance && x.back == y.back && chartOf(cut, x) == chartOf(cut, y) &&
-           side[a].open && side[b].open && sides.sees(side[a].points[0], side[b].points[0]);
+    return chartOf(cut, x) == chartOf(cut, y) && side[a].open && side[b].open &&
+           sides.sees(side[a].points[0], side[b].points[0]);
 }
 
-/// Keeps those points of a texel that its side has, from where at least something within `reach` of
-/// the texel's width is seen.
-static TexelSide chooseSide(const SideFinder& sides, const CutScene& cut, AtlasTexel& texel,
-                            float reach) {
+/// As SideFinder::choose(), for a texel with points in the cut scene and this part of its width.
+static TexelSide chooseWithin(float reach, const SideFinder& sides, const CutScene& cut,
+                              AtlasTexel& texel) {
     AtlasTexel before = texel; // with its points in the scene before it was cut
     for (std::uint32_t k = 0; k < texel.count; ++k)
         before.points[k] = cut.toSource(texel.instance, texel.points[k]);
@@ -51,16 +43,16 @@ static TexelSide chooseSide(const SideFinder& sides, const CutScene& cut, AtlasT
     return side;
 }
 
-/// The same with ever shorter rays where no point is open: a piece that ends in a narrow gap is
-/// seen, however wide its texels are.
+/// Keeps the points of a texel that lie on its most open side. Looks less and less far where no
+/// point is open, because a surface in a narrow gap is seen, however wide its texels are.
 static Openness chooseSide(const SideFinder& sides, const CutScene& cut, AtlasTexel& texel,
                            TexelSide& side) {
     constexpr float kCloser = 0.25f, kClosest = 0.01f;
-    side = chooseSide(sides, cut, texel, 1.f);
+    side = chooseWithin(1, sides, cut, texel);
     if (side.open)
         return Openness::Open;
     for (float reach = kCloser; reach > kClosest && !side.open; reach *= kCloser)
-        side = chooseSide(sides, cut, texel, reach);
+        side = chooseWithin(reach, sides, cut, texel);
     return side.open ? Openness::Narrow : Openness::Closed;
 }
 
@@ -109,8 +101,6 @@ LitTexels layLitTexels(const CutScene& cut, const ChartFactors& factors, const L
 
 void findOpenTexels(const TraceScene& trace, const std::vector<MeshCharts>& charts,
                     const CutScene& cut, LitTexels& lit, const Progress& progress) {
-    const LightmapLayout& layout = lit.atlas.layout;
-    const std::uint32_t width = layout.width;
     std::atomic<std::uint64_t> rays = 0;
     Atlas before; // of which the sides read the charts alone
     before.layout.meshes = charts;
@@ -119,9 +109,8 @@ void findOpenTexels(const TraceScene& trace, const std::vector<MeshCharts>& char
     constexpr std::size_t kGrain = 64;
     const bool done = parallelRanges(
         side.size(), kGrain, progress, "texels", [&](std::size_t begin, std::size_t end) {
-            for (std::size_t t = begin; t < end; ++t) {
+            for (std::size_t t = begin; t < end; ++t)
                 lit.open[t] = chooseSide(sides, cut, lit.atlas.texels[t], side[t]);
-            }
         });
     if (!done)
         return;
@@ -129,14 +118,10 @@ void findOpenTexels(const TraceScene& trace, const std::vector<MeshCharts>& char
         side.size(), kGrain, progress, "texels", [&](std::size_t begin, std::size_t end) {
             for (std::size_t t = begin; t < end; ++t) {
                 const std::uint32_t place = lit.atlas.texels[t].texel;
-                const auto sharesWith = [&](bool inside, std::uint32_t next, SharesNoise which) {
-                    if (inside && lit.texelAt[next] != kNoTexel &&
-                        areTogether(sides, cut, lit.atlas, side, std::uint32_t(t),
-                                    lit.texelAt[next]))
+                forNextTexels(lit, std::uint32_t(t), [&](std::uint32_t next, SharesNoise which) {
+                    if (areTogether(sides, cut, lit.atlas, side, std::uint32_t(t), next))
                         lit.shares[place] |= which;
-                };
-                sharesWith(place % width + 1 < width, place + 1, WithRight);
-                sharesWith(place / width + 1 < layout.height, place + width, WithBelow);
+                });
             }
         });
 }

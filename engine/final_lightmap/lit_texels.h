@@ -4,6 +4,8 @@
 #include "engine/core/progress.h"
 #include "engine/final_lightmap/cut_scene.h"
 #include "engine/lightmap/atlas.h"
+#include "engine/lightmap/plain_lightmap.h"
+#include "engine/picture/gathered_light.h"
 #include "engine/trace/trace_scene.h"
 
 #include <cstdint>
@@ -28,6 +30,22 @@ struct LitTexels {
     /// Sets of SharesNoise at y * width + x: neighbours of one chart with no wall between them.
     std::vector<std::uint8_t> shares;
 };
+
+/// Calls visit(next, which) for the texels to the right of texel t and below it, if they are of the
+/// same side of the same instance.
+template <class Visit>
+void forNextTexels(const LitTexels& lit, std::uint32_t t, const Visit& visit) {
+    const std::vector<AtlasTexel>& texels = lit.atlas.texels;
+    const std::uint32_t width = lit.atlas.layout.width, place = texels[t].texel;
+    const auto visitAt = [&](bool isInside, std::uint32_t nextPlace, SharesNoise which) {
+        const std::uint32_t next = isInside ? lit.texelAt[nextPlace] : kNoTexel;
+        if (next != kNoTexel && texels[next].instance == texels[t].instance &&
+            texels[next].back == texels[t].back)
+            visit(next, which);
+    };
+    visitAt(place % width + 1 < width, place + 1, WithRight);
+    visitAt(place / width + 1 < lit.atlas.layout.height, place + width, WithBelow);
+}
 
 /// How many texels there are to be.
 struct LitTexelCount {

@@ -21,10 +21,10 @@ namespace {
 constexpr double kDim = 0.5, kFloor = 0.01;
 /// A trial has this part of the texels: its residual is larger and found faster.
 constexpr std::uint32_t kTrial = 2;
-/// Range of a chart's factor, relative to that before. The light that is known here is that of a
-/// bake, which has next to no detail on small charts. Those that are large enough to be cut have
-/// it.
-constexpr double kMinChange = 0.7, kMaxChange = 2, kMinPiece = 0.7, kMaxPiece = 16;
+/// Range of factors, relative to those of the bake. Fewer texels gather too few rays: a piece of a
+/// wall would have one error all over. Small charts have next to no detail in a bake, so charts
+/// that are not cut, among them all small ones, gain less.
+constexpr double kMinChange = 0.7, kMaxChange = 2, kMaxPiece = 16;
 constexpr int kTrials = 2, kCutTrials = 3;
 
 /// The samples of an instance's charts before any is cut.
@@ -54,6 +54,8 @@ struct DensityFinder {
     Trial tryTexels(bool cutCharts);
     void addCrossings(const LitTexels& lit);
     void adapt(Trial& trial, bool cutCharts);
+    std::vector<float> factorsOfPieces(std::uint32_t instance, std::uint32_t chart, Trial& trial,
+                                       double scale, ChartCuts* cuts) const;
 };
 
 /// Adds what crosses charts between the texels of a trial.
@@ -116,8 +118,8 @@ Trial DensityFinder::tryTexels(bool cutCharts) {
     return trial;
 }
 
-/// Factors in steps, so that small charts of nearly the same may share texels. Those in different
-/// parts of a chart, with a wall between, must not share any, and differ by little.
+/// Rounds a factor, so that small charts with similar ones get the same and may share texels. Parts
+/// of a chart with a wall between must share none, so their factors are made to differ a little.
 float stepped(double factor, std::uint32_t part) {
     constexpr double kSteps = 2; // per octave
     constexpr std::uint32_t kParts = 16;
@@ -126,16 +128,38 @@ float stepped(double factor, std::uint32_t part) {
                            kNextPart * double(part % kParts)));
 }
 
+/// The factor of each piece of a chart. Cuts it where `cuts` is not null.
+std::vector<float> DensityFinder::factorsOfPieces(std::uint32_t i, std::uint32_t c, Trial& trial,
+                                                  double scale, ChartCuts* cuts) const {
+    const double dim = kDim * trial.light, start = before[i].empty() ? 1 : double(before[i][c]);
+    const auto factorOf = [&](double squared) {
+        return std::clamp(scale * std::sqrt(std::sqrt(squared)), kMinChange * start,
+                          kMaxPiece * start);
+    };
+    std::vector<ResidualSample>& samples = trial.samples[i][c];
+    std::vector<ResidualSums> pieces;
+    if (cuts) {
+        const double perUnit = trial.texelsPerMetre * double(atlasScale(scene.instances[i]));
+        pieces = cutIntoPieces(samples, crossings[i][c], dim, {perUnit, factorOf}, *cuts);
+    } else {
+        pieces = {sumOf(samples)};
+    }
+    const double highest = (pieces.size() == 1 ? kMaxChange : kMaxPiece) * start;
+    std::vector<float> factors;
+    for (const ResidualSums& sums : pieces) {
+        const double factor = sums.area > 0 ? factorOf(sums.relativeInRectangle(dim)) : start;
+        factors.push_back(stepped(std::min(factor, highest), sums.part));
+    }
+    return factors;
+}
+
 /// Chooses pieces and factors by what a trial has left.
 void DensityFinder::adapt(Trial& trial, bool cutCharts) {
-    const double dim = kDim * trial.light;
     double texels = 0; // with factors of the fourth root of squared error
-    for (std::uint32_t i = 0; i < trial.samples.size(); ++i)
-        for (const std::vector<ResidualSample>& samples : trial.samples[i]) {
-            ResidualSums sums;
-            for (const ResidualSample& s : samples)
-                sums.add(s);
-            texels += sums.area * std::sqrt(sums.relative(dim));
+    for (const ChartSamples& ofInstance : trial.samples)
+        for (const std::vector<ResidualSample>& samples : ofInstance) {
+            const ResidualSums sums = sumOf(samples);
+            texels += sums.area * std::sqrt(sums.relative(kDim * trial.light));
         }
     if (!(texels > 0))
         return;
@@ -144,31 +168,10 @@ void DensityFinder::adapt(Trial& trial, bool cutCharts) {
     std::vector<std::vector<std::vector<float>>> pieceFactors(trial.samples.size());
     parallelRanges(trial.samples.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const MeshCharts& whole = chartsOf(std::uint32_t(i));
-            const double perUnit = trial.texelsPerMetre * double(atlasScale(scene.instances[i]));
-            cuts[i].resize(whole.chartSize.size());
-            pieceFactors[i].resize(whole.chartSize.size());
-            for (std::size_t c = 0; c < whole.chartSize.size(); ++c) {
-                const double start = before[i].empty() ? 1 : double(before[i][c]);
-                const auto factorOf = [&](double squared) {
-                    return std::clamp(scale * std::sqrt(std::sqrt(squared)), kMinPiece * start,
-                                      kMaxPiece * start);
-                };
-                std::vector<ResidualSample>& samples = trial.samples[i][c];
-                std::vector<ResidualSums> pieces(1);
-                if (cutCharts)
-                    pieces = cutIntoPieces(samples, crossings[i][c], dim, {perUnit, factorOf},
-                                           cuts[i][c]);
-                else
-                    for (const ResidualSample& s : samples)
-                        pieces[0].add(s);
-                for (const ResidualSums& sums : pieces) {
-                    double factor = sums.area > 0 ? factorOf(sums.relativeInRectangle(dim)) : start;
-                    if (pieces.size() == 1)
-                        factor = std::clamp(factor, kMinChange * start, kMaxChange * start);
-                    pieceFactors[i][c].push_back(stepped(factor, sums.part));
-                }
-            }
+            cuts[i].resize(trial.samples[i].size());
+            for (std::uint32_t c = 0; c < cuts[i].size(); ++c)
+                pieceFactors[i].push_back(factorsOfPieces(std::uint32_t(i), c, trial, scale,
+                                                          cutCharts ? &cuts[i][c] : nullptr));
         }
     });
     if (cutCharts)

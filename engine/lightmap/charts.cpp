@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -168,25 +169,27 @@ void unwrap(const TriangleGeometry& geometry, const Stop& stop, ChartGrower& out
             out.grow(seeds[i], charts++);
 }
 
-/// Creates one vertex per (mesh vertex, chart) and shifts the plane coordinates so that each chart
-/// starts at 0.
-MeshCharts collectVertices(const Mesh& mesh, const ChartGrower& grown) {
+} // namespace
+
+MeshCharts splitIntoCharts(const Mesh& mesh, std::vector<std::uint32_t> chartOfTriangle,
+                           const std::vector<glm::vec2>& corner) {
     MeshCharts result;
-    result.chartOfTriangle = grown.chartOf;
+    result.chartOfTriangle = std::move(chartOfTriangle);
     const std::uint32_t charts =
-        grown.chartOf.empty() ? 0
-                              : *std::max_element(grown.chartOf.begin(), grown.chartOf.end()) + 1;
+        result.chartOfTriangle.empty()
+            ? 0
+            : *std::max_element(result.chartOfTriangle.begin(), result.chartOfTriangle.end()) + 1;
     std::vector<glm::vec2> lower(charts, glm::vec2(1e30f)), upper(charts, glm::vec2(-1e30f));
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-        const std::uint32_t chart = grown.chartOf[i / 3];
-        lower[chart] = glm::min(lower[chart], grown.corner[i]);
-        upper[chart] = glm::max(upper[chart], grown.corner[i]);
+        const std::uint32_t chart = result.chartOfTriangle[i / 3];
+        lower[chart] = glm::min(lower[chart], corner[i]);
+        upper[chart] = glm::max(upper[chart], corner[i]);
     }
     // Copies of a vertex, one per chart, form chains: the latest copy and the one before each.
     constexpr std::uint32_t kNone = ~0U;
     std::vector<std::uint32_t> latest(mesh.positions.size(), kNone), before, chartOf;
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-        const std::uint32_t chart = grown.chartOf[i / 3], vertex = mesh.indices[i];
+        const std::uint32_t chart = result.chartOfTriangle[i / 3], vertex = mesh.indices[i];
         std::uint32_t copy = latest[vertex];
         while (copy != kNone && chartOf[copy] != chart)
             copy = before[copy];
@@ -196,7 +199,7 @@ MeshCharts collectVertices(const Mesh& mesh, const ChartGrower& grown) {
             chartOf.push_back(chart);
             latest[vertex] = copy;
             result.sourceVertex.push_back(vertex);
-            result.chartUv.push_back(grown.corner[i] - lower[chart]);
+            result.chartUv.push_back(corner[i] - lower[chart]);
         }
         result.indices.push_back(copy);
     }
@@ -204,8 +207,6 @@ MeshCharts collectVertices(const Mesh& mesh, const ChartGrower& grown) {
         result.chartSize.push_back(upper[c] - lower[c]);
     return result;
 }
-
-} // namespace
 
 std::string lightmapUvDefect(const Mesh& mesh, const Progress& progress) {
     if (mesh.uv1.empty())
@@ -246,7 +247,8 @@ MeshCharts buildCharts(const Mesh& mesh, const Progress& progress) {
         useAuthoredUv(mesh, geometry, stop, grown);
     else
         unwrap(geometry, stop, grown);
-    return progress.cancelled() ? MeshCharts() : collectVertices(mesh, grown);
+    return progress.cancelled() ? MeshCharts()
+                                : splitIntoCharts(mesh, std::move(grown.chartOf), grown.corner);
 }
 
 } // namespace limn

@@ -5,7 +5,11 @@
 #include "engine/lightmap/layout/lightmap_layout.h"
 #include "engine/scene/mesh/mesh.h"
 
+#include <cstdint>
 #include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
 
 namespace limn {
 
@@ -15,6 +19,12 @@ namespace limn {
 /// they lie within 60 degrees of it. Deterministic. chartUv is to scale in object units. Returns
 /// empty charts when cancelled.
 MeshCharts buildCharts(const Mesh& mesh, const Progress& progress = {});
+
+/// Charts of a mesh, from the chart of each triangle and the position of each corner in the plane
+/// of its chart [object units]: one vertex for each chart that a mesh's vertex belongs to, and
+/// lower corners of charts at 0.
+MeshCharts splitIntoCharts(const Mesh& mesh, std::vector<std::uint32_t> chartOfTriangle,
+                           const std::vector<glm::vec2>& corner);
 
 /// Why TEXCOORD_1 cannot serve as lightmap coordinates, for the report. Returns an empty string if
 /// it is valid and "cancelled" when cancelled.

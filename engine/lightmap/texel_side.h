@@ -25,6 +25,9 @@ struct LiftedPoint {
     std::uint32_t instance = 0, chart = kMixedCharts;
 };
 
+/// Chart of all points of a texel, or kMixedCharts. `charts` are those of its mesh.
+std::uint32_t chartOfTexel(const MeshCharts& charts, const AtlasTexel& texel);
+
 /// Properties of a texel besides its points.
 struct TexelSide {
     std::uint32_t chart = kMixedCharts;
@@ -46,7 +49,6 @@ struct SideFinder {
         const std::uint32_t mesh = trace.scene().instances[instance].mesh;
         return atlas.layout.meshes[mesh].chartOfTriangle[triangle];
     }
-    /// Chart of all points of a texel, or kMixedCharts.
     std::uint32_t chartOf(const AtlasTexel& texel) const;
 
     /// Traces a few rays. A direction is open if there is no surface within `reach` [m] and no back

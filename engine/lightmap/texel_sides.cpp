@@ -15,12 +15,16 @@ namespace limn {
 
 static constexpr std::uint32_t kProbesPerPoint = 8, kSlots = AtlasTexel::kMaxPoints;
 
-std::uint32_t SideFinder::chartOf(const AtlasTexel& texel) const {
-    const std::uint32_t chart = chartOf(texel.instance, texel.points[0].triangle);
+std::uint32_t chartOfTexel(const MeshCharts& charts, const AtlasTexel& texel) {
+    const std::uint32_t chart = charts.chartOfTriangle[texel.points[0].triangle];
     for (std::uint32_t k = 1; k < texel.count; ++k)
-        if (chartOf(texel.instance, texel.points[k].triangle) != chart)
+        if (charts.chartOfTriangle[texel.points[k].triangle] != chart)
             return kMixedCharts;
     return chart;
+}
+
+std::uint32_t SideFinder::chartOf(const AtlasTexel& texel) const {
+    return chartOfTexel(atlas.layout.meshes[trace.scene().instances[texel.instance].mesh], texel);
 }
 
 Outlook SideFinder::look(const WorldPoint& point, float reach, std::uint32_t seed) const {

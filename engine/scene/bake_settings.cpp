@@ -26,20 +26,7 @@ std::string settingsDefect(const BakeSettings& s) {
 }
 
 std::string setBakeSetting(BakeSettings& s, std::string_view key, const std::string& text) {
-    std::string defect;
-    const char* replaced = nullptr;
-    visitBakeSettings(s, [&](const Setting& setting, auto& value, const auto&... limits) {
-        if (setting.key != key)
-            return;
-        defect = readValue(text, value, limits...);
-        replaced = setting.replaces;
-    });
-    if (defect.empty() && replaced)
-        visitBakeSettings(s, [&](const Setting& setting, auto& value, const auto&...) {
-            if (setting.key == std::string_view(replaced))
-                value = {};
-        });
-    return defect;
+    return setByKey([&](const auto& visit) { visitBakeSettings(s, visit); }, key, text);
 }
 
 } // namespace limn

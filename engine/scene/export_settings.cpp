@@ -43,20 +43,7 @@ std::string missingFor(const ExportSettings& settings, std::string_view key, boo
 
 std::string setExportSetting(ExportSettings& settings, std::string_view key,
                              const std::string& text) {
-    std::string defect;
-    const char* replaced = nullptr;
-    visitExportSettings(settings, [&](const Setting& setting, auto& value, const auto&... limits) {
-        if (setting.key != key)
-            return;
-        defect = readValue(text, value, limits...);
-        replaced = setting.replaces;
-    });
-    if (defect.empty() && replaced)
-        visitExportSettings(settings, [&](const Setting& setting, auto& value, const auto&...) {
-            if (setting.key == std::string_view(replaced))
-                value = {};
-        });
-    return defect;
+    return setByKey([&](const auto& visit) { visitExportSettings(settings, visit); }, key, text);
 }
 
 } // namespace limn

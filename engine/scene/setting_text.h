@@ -5,6 +5,7 @@
 
 #include <concepts>
 #include <string>
+#include <string_view>
 
 #include <glm/vec3.hpp>
 
@@ -48,6 +49,27 @@ requires std::is_enum_v<T> std::string readValue(const std::string& text, T& val
     std::string defect = readChoice(text, index, choices);
     if (defect.empty())
         value = T(index);
+    return defect;
+}
+
+/// Parses a value of the setting of that key, and sets the one that it replaces to nothing.
+/// visitAll(visit) calls visit() for each setting, as visitBakeSettings() does. Returns what is
+/// wrong with the text.
+template <class VisitAll>
+std::string setByKey(const VisitAll& visitAll, std::string_view key, const std::string& text) {
+    std::string defect;
+    const char* replaced = nullptr;
+    visitAll([&](const Setting& setting, auto& value, const auto&... limits) {
+        if (setting.key != key)
+            return;
+        defect = readValue(text, value, limits...);
+        replaced = setting.replaces;
+    });
+    if (defect.empty() && replaced)
+        visitAll([&](const Setting& setting, auto& value, const auto&...) {
+            if (setting.key == std::string_view(replaced))
+                value = {};
+        });
     return defect;
 }
 
