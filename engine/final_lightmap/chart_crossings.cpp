@@ -73,8 +73,7 @@ void CrossingFinder::lookAround(std::uint32_t t, std::vector<Crossing>& found) c
     };
     for (std::uint32_t k = 1; k < texel.count; ++k)
         lookAt(texel.points[k]);
-    forNextTexels(
-        lit, t, [&](std::uint32_t next, SharesNoise) { lookAt(lit.atlas.texels[next].points[0]); });
+    forNextTexels(lit, t, [&](std::uint32_t next) { lookAt(lit.atlas.texels[next].points[0]); });
 }
 
 } // namespace

@@ -37,8 +37,7 @@ TexelFitInput fitInput(const Scene& scene, const LitTexels& lit,
                               (lit.open[p.texel] == Openness::Narrow ? kNarrowWeight : 1));
     }
     for (std::uint32_t t = 0; t < lit.atlas.texels.size(); ++t)
-        forNextTexels(
-            lit, t, [&](std::uint32_t next, SharesNoise) { fit.neighbours.emplace_back(t, next); });
+        forNextTexels(lit, t, [&](std::uint32_t next) { fit.neighbours.emplace_back(t, next); });
     fit.seams = findSeams(scene, lit);
     return fit;
 }

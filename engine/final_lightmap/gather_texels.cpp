@@ -172,19 +172,18 @@ void TexelGather::subtractField(const std::vector<PointOfTexel>& points,
 }
 
 /// The weighted sum of the harmonics of the texels that share noise with one at `place`, as
-/// ShrunkDifference has it for irradiance: calls add(place, factor). Harmonics have more noise, so
-/// that none is taken from a single texel.
+/// ShrunkDifference has it for irradiance: calls add(number of the place, factor). Harmonics have
+/// more noise, so that none is taken from a single texel.
 template <class Add>
 void addShrunk(const GatheredLight& light, ShrunkDifference shrunk, glm::uvec2 place,
                const Add& add) {
     shrunk.pixelFactor = 0;
-    const SharingWindow window = sharingWindow(light, place);
-    const PixelRect near = windowAround(place, kNearRadius, window.rect);
-    window.forEach(place, kGatherRadius, [&](glm::uvec2 q) {
-        const glm::vec3 factor =
-            shrunk.factorOf(near.contains(q), q == place, light.at(place).weight);
-        add(q, factor);
-    });
+    constexpr glm::uvec2 kMiddle = SharingWindow::kMiddle;
+    const PixelRect near = windowAround(kMiddle, kNearRadius, SharingWindow::kPlaces);
+    sharingWindow(light, place)
+        .forEach(kMiddle, kGatherRadius, [&](glm::uvec2 q, std::uint32_t number) {
+            add(number, shrunk.factorOf(near.contains(q), q == kMiddle, light.at(place).weight));
+        });
 }
 
 } // namespace
@@ -201,7 +200,7 @@ std::optional<GatheredTexels> gatherTexels(const GatherScene& scene, const CutSc
     gather.stages.meanLight = gather.meanLight();
     const glm::uvec2 size(lit.atlas.layout.width, lit.atlas.layout.height);
     GatheredLight light({{0, 0}, size});
-    light.shares = lit.shares;
+    light.links = lit.links;
     const std::size_t texels = lit.atlas.texels.size(), coefficients = gather.coefficients;
     std::array<std::vector<glm::vec3>, kDifferences> harmonics;
     for (std::vector<glm::vec3>& part : harmonics)
@@ -276,8 +275,8 @@ std::optional<GatheredTexels> gatherTexels(const GatherScene& scene, const CutSc
                 result.irradiance[t] += shrunk.lightIn(light.at(place), part);
                 if (coefficients == 0)
                     continue;
-                addShrunk(light, shrunk, place, [&](glm::uvec2 q, glm::vec3 factor) {
-                    const std::uint32_t from = lit.texelAt[std::size_t(q.y) * size.x + q.x];
+                addShrunk(light, shrunk, place, [&](std::uint32_t number, glm::vec3 factor) {
+                    const std::uint32_t from = lit.texelAt[number];
                     for (std::size_t k = 0; k < coefficients; ++k)
                         result.harmonics[k * texels + t] +=
                             factor * harmonics[part][k * texels + from];

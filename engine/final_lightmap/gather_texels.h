@@ -32,7 +32,7 @@ struct GatheredTexels {
 };
 
 /// Gathers at the points of all open texels as FinalGather does for pixels: tiles of texels share a
-/// guide, and neighbours that LitTexels::shares connects share noise. Returns std::nullopt when
+/// guide, and neighbours that LitTexels::links connects share noise. Returns std::nullopt when
 /// cancelled.
 std::optional<GatheredTexels> gatherTexels(const GatherScene& scene, const CutScene& cut,
                                            const LitTexels& lit, const TexelGathering& how,

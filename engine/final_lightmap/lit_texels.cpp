@@ -2,6 +2,7 @@
 #include "engine/final_lightmap/lit_texels.h"
 
 #include "engine/core/parallel.h"
+#include "engine/final_lightmap/texel_sharing.h"
 #include "engine/lightmap/lightmap_pages.h"
 #include "engine/lightmap/plain_lightmap.h"
 #include "engine/lightmap/texel_side.h"
@@ -12,18 +13,6 @@
 #include <cmath>
 
 namespace limn {
-
-static std::uint32_t chartOf(const CutScene& cut, const AtlasTexel& texel) {
-    return chartOfTexel(cut.charts[cut.scene.instances[texel.instance].mesh], texel);
-}
-
-/// Whether texels of one side of an instance are of one chart, and nothing stands between them.
-static bool areTogether(const SideFinder& sides, const CutScene& cut, const Atlas& atlas,
-                        const std::vector<TexelSide>& side, std::uint32_t a, std::uint32_t b) {
-    const AtlasTexel &x = atlas.texels[a], &y = atlas.texels[b];
-    return chartOf(cut, x) == chartOf(cut, y) && side[a].open && side[b].open &&
-           sides.sees(side[a].points[0], side[b].points[0]);
-}
 
 /// As SideFinder::choose(), for a texel with points in the cut scene and this part of its width.
 static TexelSide chooseWithin(float reach, const SideFinder& sides, const CutScene& cut,
@@ -95,7 +84,7 @@ LitTexels layLitTexels(const CutScene& cut, const ChartFactors& factors, const L
     for (std::uint32_t i = 0; i < lit.atlas.texels.size(); ++i)
         lit.texelAt[lit.atlas.texels[i].texel] = i;
     lit.open.assign(lit.atlas.texels.size(), Openness::Open);
-    lit.shares.assign(lit.texelAt.size(), 0);
+    lit.links.resize(lit.texelAt.size());
     return lit;
 }
 
@@ -112,18 +101,8 @@ void findOpenTexels(const TraceScene& trace, const std::vector<MeshCharts>& char
             for (std::size_t t = begin; t < end; ++t)
                 lit.open[t] = chooseSide(sides, cut, lit.atlas.texels[t], side[t]);
         });
-    if (!done)
-        return;
-    parallelRanges(
-        side.size(), kGrain, progress, "texels", [&](std::size_t begin, std::size_t end) {
-            for (std::size_t t = begin; t < end; ++t) {
-                const std::uint32_t place = lit.atlas.texels[t].texel;
-                forNextTexels(lit, std::uint32_t(t), [&](std::uint32_t next, SharesNoise which) {
-                    if (areTogether(sides, cut, lit.atlas, side, std::uint32_t(t), next))
-                        lit.shares[place] |= which;
-                });
-            }
-        });
+    if (done)
+        lit.links = findSharing(sides, cut, lit, side, progress);
 }
 
 } // namespace limn

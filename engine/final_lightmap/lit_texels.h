@@ -27,24 +27,23 @@ struct LitTexels {
     Atlas atlas;
     std::vector<std::uint32_t> texelAt; ///< index into Atlas::texels, or kNoTexel, at y * width + x
     std::vector<Openness> open;         ///< per texel
-    /// Sets of SharesNoise at y * width + x: neighbours of one chart with no wall between them.
-    std::vector<std::uint8_t> shares;
+    std::vector<SharingLinks> links;    ///< at y * width + x, as findSharing() finds them
 };
 
-/// Calls visit(next, which) for the texels to the right of texel t and below it, if they are of the
-/// same side of the same instance.
+/// Calls visit(next) for the texels to the right of texel t and below it, if they are of the same
+/// side of the same instance.
 template <class Visit>
 void forNextTexels(const LitTexels& lit, std::uint32_t t, const Visit& visit) {
     const std::vector<AtlasTexel>& texels = lit.atlas.texels;
     const std::uint32_t width = lit.atlas.layout.width, place = texels[t].texel;
-    const auto visitAt = [&](bool isInside, std::uint32_t nextPlace, SharesNoise which) {
+    const auto visitAt = [&](bool isInside, std::uint32_t nextPlace) {
         const std::uint32_t next = isInside ? lit.texelAt[nextPlace] : kNoTexel;
         if (next != kNoTexel && texels[next].instance == texels[t].instance &&
             texels[next].back == texels[t].back)
-            visit(next, which);
+            visit(next);
     };
-    visitAt(place % width + 1 < width, place + 1, WithRight);
-    visitAt(place / width + 1 < lit.atlas.layout.height, place + width, WithBelow);
+    visitAt(place % width + 1 < width, place + 1);
+    visitAt(place / width + 1 < lit.atlas.layout.height, place + width);
 }
 
 /// How many texels there are to be.

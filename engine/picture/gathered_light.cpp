@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include <glm/common.hpp>
 
@@ -69,63 +70,89 @@ struct Deviations {
 
 } // namespace
 
+/// Fills a window by following links. Where pixels on the two sides of a seam differ in size, links
+/// lead to one of them from several places; it belongs to the first.
+static void followLinks(const GatheredLight& light, std::uint32_t middle, SharingWindow& window) {
+    struct Reached {
+        glm::ivec2 place;
+        std::uint32_t pixel, turn;
+    };
+    constexpr std::array<glm::ivec2, 4> kSteps{
+        {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)}};
+    std::array<Reached, std::tuple_size_v<decltype(window.pixel)>> reached;
+    std::size_t count = 0;
+    bool crossed = false; // a seam
+    const auto reach = [&](const Reached& r) {
+        const glm::ivec2 end(SharingWindow::kPlaces.end);
+        if (r.place.x < 0 || r.place.y < 0 || r.place.x >= end.x || r.place.y >= end.y)
+            return;
+        std::uint32_t& pixel = window.pixel[SharingWindow::kPlaces.numberOf(glm::uvec2(r.place))];
+        const auto isSame = [&](const Reached& other) { return other.pixel == r.pixel; };
+        if (pixel != SharingLinks::kNone ||
+            (crossed && std::any_of(reached.begin(), reached.begin() + count, isSame)))
+            return;
+        pixel = r.pixel;
+        reached[count++] = r;
+    };
+    reach({glm::ivec2(SharingWindow::kMiddle), middle, 0});
+    const std::uint32_t width = light.rect.end.x - light.rect.begin.x;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Reached from = reached[k];
+        const SharingLinks& links = light.links[from.pixel];
+        for (std::uint32_t step = 0; step < kSteps.size(); ++step) {
+            const std::uint32_t way = (step + from.turn) % kSteps.size(), next = links.next[way];
+            if (next == SharingLinks::kNone)
+                continue;
+            const glm::ivec2 inRow = kSteps[way];
+            crossed |= next != from.pixel + std::uint32_t(inRow.x + inRow.y * int(width));
+            reach({from.place + kSteps[step], next, from.turn + links.turn[way]});
+        }
+    }
+}
+
 SharingWindow sharingWindow(const GatheredLight& light, glm::uvec2 pixel) {
-    SharingWindow window{windowAround(pixel, kGatherRadius, light.rect)};
-    const PixelRect& rect = window.rect;
-    if (light.shares.empty()) {
-        std::fill_n(window.shares.begin(), rect.size(), true);
+    SharingWindow window;
+    window.pixel.fill(SharingLinks::kNone);
+    if (!light.links.empty()) {
+        followLinks(light, std::uint32_t(light.rect.numberOf(pixel)), window);
         return window;
     }
-    std::array<glm::uvec2, kMaxWindowPixels> reached;
-    std::size_t count = 0;
-    const auto reach = [&](glm::uvec2 q) {
-        bool& shares = window.shares[rect.numberOf(q)];
-        if (!shares)
-            reached[count++] = q;
-        shares = true;
-    };
-    const auto sharesWith = [&](glm::uvec2 q, SharesNoise next) {
-        return (light.shares[light.rect.numberOf(q)] & next) != 0;
-    };
-    reach(pixel);
-    for (std::size_t k = 0; k < count; ++k) {
-        const glm::uvec2 q = reached[k];
-        const glm::uvec2 right(1, 0), below(0, 1);
-        if (q.x + 1 < rect.end.x && sharesWith(q, WithRight))
-            reach(q + right);
-        if (q.y + 1 < rect.end.y && sharesWith(q, WithBelow))
-            reach(q + below);
-        if (q.x > rect.begin.x && sharesWith(q - right, WithRight))
-            reach(q - right);
-        if (q.y > rect.begin.y && sharesWith(q - below, WithBelow))
-            reach(q - below);
-    }
+    windowAround(pixel, kGatherRadius, light.rect).forEach([&](glm::uvec2 q) {
+        window.pixel[SharingWindow::kPlaces.numberOf(q + kGatherRadius - pixel)] =
+            std::uint32_t(light.rect.numberOf(q));
+    });
     return window;
 }
 
 ShrunkDifference shrinkDifference(const GatheredLight& light, GatherPart part, glm::uvec2 pixel) {
     const SharingWindow window = sharingWindow(light, pixel);
-    std::array<GatheredMean, kMaxWindowPixels> near;
+    std::array<GatheredMean, std::tuple_size_v<decltype(window.pixel)>> near;
+    const auto nearOf = [&](glm::uvec2 place) -> GatheredMean& {
+        return near[SharingWindow::kPlaces.numberOf(place)];
+    };
     ShrunkDifference shrunk;
-    window.forEach(pixel, kGatherRadius, [&](glm::uvec2 q) {
-        shrunk.window.add(light.at(q), part);
-        GatheredMean& mean = near[window.rect.numberOf(q)];
-        window.forEach(q, kNearRadius, [&](glm::uvec2 r) { mean.add(light.at(r), part); });
+    window.forEach(SharingWindow::kMiddle, kGatherRadius, [&](glm::uvec2 q, std::uint32_t number) {
+        shrunk.window.add(light.pixels[number], part);
+        GatheredMean& mean = nearOf(q);
+        window.forEach(q, kNearRadius, [&](glm::uvec2, std::uint32_t beside) {
+            mean.add(light.pixels[beside], part);
+        });
     });
-    shrunk.near = near[window.rect.numberOf(pixel)];
+    shrunk.near = nearOf(SharingWindow::kMiddle);
     Deviations nearDeviations;  // of neighbourhoods' means from the window's mean
     Deviations pixelDeviations; // of pixels from their neighbourhoods' means
-    window.forEach(pixel, kGatherRadius, [&](glm::uvec2 q) {
-        const GatheredPixel& p = light.at(q);
-        const GatheredMean& mean = near[window.rect.numberOf(q)];
+    window.forEach(SharingWindow::kMiddle, kGatherRadius, [&](glm::uvec2 q, std::uint32_t number) {
+        const GatheredPixel& p = light.pixels[number];
+        const GatheredMean& mean = nearOf(q);
+        const bool isMiddle = q == SharingWindow::kMiddle;
         const double a = greyOf(mean.factorFor(p.weight)),
                      b = greyOf(shrunk.window.factorFor(p.weight));
         nearDeviations.add(mean.in(p.weight) - shrunk.window.in(p.weight),
                            (a - 2 * b) * a * mean.variance + b * b * shrunk.window.variance,
-                           p.weight, q == pixel);
+                           p.weight, isMiddle);
         pixelDeviations.add(p.difference[part] - mean.in(p.weight),
                             (1 - 2 * a) * double(p.variance[part]) + a * a * mean.variance,
-                            p.weight, q == pixel);
+                            p.weight, isMiddle);
     });
     Deviations windowDeviation; // of the window's mean from 0
     windowDeviation.add(shrunk.window.sum, shrunk.window.variance, glm::vec3(1), true);

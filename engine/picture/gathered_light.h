@@ -51,15 +51,20 @@ inline constexpr std::uint32_t kGatherRadius = 3, kNearRadius = 1;
 /// The square of pixels up to `radius` away from a pixel of `rect`, clipped to `rect`.
 PixelRect windowAround(glm::uvec2 pixel, std::uint32_t radius, const PixelRect& rect);
 
-/// Whether a pixel shares noise with the next one to its right and with that below it.
-enum SharesNoise : std::uint8_t { WithRight = 1, WithBelow = 2 };
+/// The next pixels with which a pixel shares noise: to its right, below, to its left and above.
+struct SharingLinks {
+    static constexpr std::uint32_t kNone = ~0U;
+    std::array<std::uint32_t, 4> next{kNone, kNone, kNone, kNone}; ///< PixelRect::numberOf()
+    /// How many directions further in this order the same way leads from there, in [0, 3].
+    std::array<std::uint8_t, 4> turn{};
+};
 
 /// Gathered light of a part of a picture, or of texels that are laid out like one.
 struct GatheredLight {
     PixelRect rect;
     std::vector<GatheredPixel> pixels; ///< one for each of rect
-    /// Sets of SharesNoise, one for each pixel; empty: all pixels of a window share their noise.
-    std::vector<std::uint8_t> shares;
+    /// One for each pixel; empty: all pixels of a window share their noise.
+    std::vector<SharingLinks> links;
 
     explicit GatheredLight(const PixelRect& area) : rect(area), pixels(area.size()) {}
     const GatheredPixel& at(glm::uvec2 pixel) const { return pixels[rect.numberOf(pixel)]; }
@@ -67,20 +72,23 @@ struct GatheredLight {
     void set(const GatherTile& tile);
 };
 
-inline constexpr std::size_t kMaxWindowPixels = (2 * kGatherRadius + 1) * (2 * kGatherRadius + 1);
+inline constexpr std::uint32_t kWindowSide = 2 * kGatherRadius + 1;
 
-/// The pixels that share noise with one: those of the window around it that steps between pixels
-/// which share noise lead to within the window.
+/// The pixels that share noise with one, which is in the middle of the window. Without links they
+/// are those around it; otherwise, those that links lead to within the window.
 struct SharingWindow {
-    PixelRect rect;
-    std::array<bool, kMaxWindowPixels> shares{}; ///< by rect.numberOf()
+    static constexpr PixelRect kPlaces{{0, 0}, {kWindowSide, kWindowSide}};
+    static constexpr glm::uvec2 kMiddle{kGatherRadius, kGatherRadius};
+    /// Number of the pixel at each place, row by row, or SharingLinks::kNone.
+    std::array<std::uint32_t, std::size_t(kWindowSide) * kWindowSide> pixel{};
 
-    /// Calls body(pixel) for each of them within a radius around a pixel of the window.
+    /// Calls body(place, pixel number) for those within a radius around a place.
     template <class Body>
-    void forEach(glm::uvec2 pixel, std::uint32_t radius, const Body& body) const {
-        windowAround(pixel, radius, rect).forEach([&](glm::uvec2 q) {
-            if (shares[rect.numberOf(q)])
-                body(q);
+    void forEach(glm::uvec2 place, std::uint32_t radius, const Body& body) const {
+        windowAround(place, radius, kPlaces).forEach([&](glm::uvec2 q) {
+            if (const std::uint32_t number = pixel[kPlaces.numberOf(q)];
+                number != SharingLinks::kNone)
+                body(q, number);
         });
     }
 };

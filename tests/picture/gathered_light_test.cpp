@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -100,6 +102,62 @@ TEST(GatheredLight, TakesTheMeanOfIrradiance) {
     const GatheredLight half = picture(1, covered, even);
     EXPECT_EQ(error(half, even, [](glm::uvec2 pixel) { return pixel.x >= 20; }), 0);
     EXPECT_LT(error(half, even, [](glm::uvec2 pixel) { return pixel.x == 19; }), 0.5);
+}
+
+/// Links each pixel of a rectangle within that to the next ones.
+void linkAll(GatheredLight& light, const PixelRect& rect) {
+    light.links.resize(light.pixels.size());
+    rect.forEach([&](glm::uvec2 p) {
+        SharingLinks& links = light.links[light.rect.numberOf(p)];
+        const std::array<bool, 4> inside{p.x + 1 < rect.end.x, p.y + 1 < rect.end.y,
+                                         p.x > rect.begin.x, p.y > rect.begin.y};
+        const std::array<glm::ivec2, 4> steps{
+            {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)}};
+        for (std::size_t way = 0; way < 4; ++way)
+            if (inside[way])
+                links.next[way] =
+                    std::uint32_t(light.rect.numberOf(glm::uvec2(glm::ivec2(p) + steps[way])));
+    });
+}
+
+/// Half of a picture may lie elsewhere, and be turned.
+TEST(GatheredLight, SharesNoiseAcrossASeam) {
+    const auto slope = [](glm::uvec2 pixel) { return glm::vec3(0.3f * float(pixel.x)); };
+    const GatheredLight whole = picture(1, white, slope);
+    constexpr std::uint32_t kCut = 20;
+    GatheredLight halves({{0, 0}, {kCut + kHeight, kHeight}});
+    const auto placeOf = [](glm::uvec2 p) {
+        return p.x < kCut ? p : glm::uvec2(kCut + kHeight - 1 - p.y, p.x - kCut);
+    };
+    whole.rect.forEach(
+        [&](glm::uvec2 p) { halves.pixels[halves.rect.numberOf(placeOf(p))] = whole.at(p); });
+    linkAll(halves, {{0, 0}, {kCut, kHeight}});
+    linkAll(halves, {{kCut, 0}, {kCut + kHeight, kWidth - kCut}});
+    for (std::uint32_t y = 0; y < kHeight; ++y) {
+        const auto a = std::uint32_t(halves.rect.numberOf({kCut - 1, y})),
+                   b = std::uint32_t(halves.rect.numberOf(placeOf({kCut, y})));
+        halves.links[a].next[0] = b;
+        halves.links[a].turn[0] = 1;
+        halves.links[b].next[3] = a;
+        halves.links[b].turn[3] = 3;
+    }
+    whole.rect.forEach([&](glm::uvec2 p) {
+        const float expected = shrinkDifference(whole, Bounced, p).lightIn(whole.at(p), Bounced).x;
+        EXPECT_NEAR(shrinkDifference(halves, Bounced, placeOf(p)).lightIn(whole.at(p), Bounced).x,
+                    expected, 1e-4f)
+            << p.x << ' ' << p.y;
+    });
+}
+
+/// A pixel that several links lead to counts once.
+TEST(GatheredLight, SharesNoiseWithEachPixelOnce) {
+    GatheredLight light({{0, 0}, {5, 5}});
+    linkAll(light, {{0, 0}, {4, 5}});
+    for (std::uint32_t y = 0; y < 5; ++y)
+        light.links[light.rect.numberOf({3, y})].next[0] = 4;
+    const SharingWindow window = sharingWindow(light, {3, 2});
+    EXPECT_EQ(std::ranges::count(window.pixel, 4U), 1);
+    EXPECT_EQ(std::ranges::count(window.pixel, SharingLinks::kNone), 49 - 20 - 1);
 }
 
 TEST(GatheredLight, IsTheSumOfPixelsTimesTheirFactors) {
