@@ -86,7 +86,7 @@ struct Evaluation {
     /// Correction of the constant coefficient by which the lower bands alone give the irradiance of
     /// all bands at the surface's own normal.
     glm::vec3 ofUpperBands(const PlainTexel& t) const {
-        const auto p = surfacePoint(in.trace, hitAt(in.scene, t, {t.u, t.v}));
+        const auto p = surfacePoint(in.trace, hitAt(in.scene, t, {t.u, t.v}), NormalDetail::Mesh);
         if (int(settings.bands) >= bands || !p)
             return glm::vec3(0);
         const std::array<glm::vec3, kMaxLayers> c = coefficients(t);
@@ -102,7 +102,7 @@ struct Evaluation {
         const glm::vec2 size(plain.width, plain.height);
         const TexelPoints points(in.layout, t, in.scene.instances[t.instance].mesh, size);
         for (const glm::vec2 uv : points.uv)
-            if (const auto p = surfacePoint(in.trace, hitAt(in.scene, t, uv)))
+            if (const auto p = surfacePoint(in.trace, hitAt(in.scene, t, uv), NormalDetail::Mesh))
                 visit(*p);
     }
 
@@ -128,7 +128,7 @@ struct Evaluation {
     }
 
     glm::vec3 color(const PlainTexel& t) const {
-        const auto p = surfacePoint(in.trace, hitAt(in.scene, t, {t.u, t.v}));
+        const auto p = surfacePoint(in.trace, hitAt(in.scene, t, {t.u, t.v}), NormalDetail::Mesh);
         if (!p)
             return glm::vec3(0);
         const glm::vec3 e = irradiance(t, *p) + (settings.direct ? directLight(t) : glm::vec3(0));

@@ -7,7 +7,6 @@
 #include "engine/final_lightmap/residual_density.h"
 #include "engine/lightmap/density.h"
 #include "engine/lightmap/plain_lightmap.h"
-#include "engine/math/horizon.h"
 #include "engine/math/sh.h"
 #include "engine/scene/dark_backs.h"
 #include "engine/shading/direct_light.h"
@@ -61,7 +60,7 @@ struct FinalMaker {
 /// Irradiance at a point, without and with direct light.
 glm::vec3 FinalMaker::irradianceOf(const FittedPoint& p, std::uint32_t seed) const {
     const Hit hit = hitAt(p);
-    const std::optional<SurfacePoint> surface = surfacePoint(in.trace, hit);
+    const std::optional<SurfacePoint> surface = surfacePoint(in.trace, hit, NormalDetail::Mesh);
     if (!surface)
         return glm::vec3(0);
     const glm::vec3 e =
@@ -85,7 +84,8 @@ std::vector<glm::vec3> FinalMaker::coefficients(std::size_t i) const {
     parallelRanges(light.size(), 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
             const Hit hit = hitAt(points[p]);
-            const std::optional<SurfacePoint> surface = surfacePoint(in.trace, hit);
+            const std::optional<SurfacePoint> surface =
+                surfacePoint(in.trace, hit, NormalDetail::Mesh);
             if (!surface)
                 continue;
             const FieldPoint here =
@@ -98,8 +98,7 @@ std::vector<glm::vec3> FinalMaker::coefficients(std::size_t i) const {
 }
 
 /// Adds the mean direct light of the texel's points, makes the irradiance of all bands at the
-/// surface's normal the one that was fitted, and lets light continue below the surface, which does
-/// not change that.
+/// surface's normal the one that was fitted.
 void FinalMaker::finishHarmonics(const std::vector<glm::vec3>& irradiance,
                                  FinalLightmap& map) const {
     const std::size_t texels = lit.atlas.texels.size(), layers = map.layers;
@@ -111,7 +110,7 @@ void FinalMaker::finishHarmonics(const std::vector<glm::vec3>& irradiance,
             glm::vec3 normal(0);
             for (std::uint32_t k = 0; k < texel.count; ++k) {
                 const std::optional<SurfacePoint> p =
-                    surfacePoint(in.trace, hitAt({std::uint32_t(t), k}));
+                    surfacePoint(in.trace, hitAt({std::uint32_t(t), k}), NormalDetail::Mesh);
                 if (!p)
                     continue;
                 normal += p->normal;
@@ -125,7 +124,6 @@ void FinalMaker::finishHarmonics(const std::vector<glm::vec3>& irradiance,
                 const float constant = std::sqrt(glm::pi<float>()) / 2; // pi Y_0
                 const glm::vec3 shown = shIrradiance(int(options.bands), c.data(), normal / length);
                 c[0] += (glm::max(irradiance[t], glm::vec3(0)) - shown) / constant;
-                continueBelow(normal / length, c.data());
             }
             for (std::size_t l = 0; l < layers; ++l)
                 map.values[l * texels + t] = c[l];
@@ -136,7 +134,7 @@ void FinalMaker::finishHarmonics(const std::vector<glm::vec3>& irradiance,
 /// Irradiance as far as the field knows it, for the density of texels.
 glm::vec3 lightOfField(const FinalLightmapInput& in, const FinalLightmapOptions& options,
                        const Hit& hit) {
-    const std::optional<SurfacePoint> p = surfacePoint(in.trace, hit);
+    const std::optional<SurfacePoint> p = surfacePoint(in.trace, hit, NormalDetail::Mesh);
     if (!p)
         return glm::vec3(0);
     std::uint64_t rays = 0;

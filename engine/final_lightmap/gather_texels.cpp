@@ -104,7 +104,8 @@ std::vector<PointOfTexel> TexelGather::pointsOf(std::uint32_t texel) const {
     const AtlasTexel& t = lit.atlas.texels[texel];
     for (std::uint32_t k = 0; k < t.count; ++k) {
         const Hit hit = hitOf(scene.trace.scene(), cut, lit, {texel, k});
-        if (const std::optional<SurfacePoint> p = surfacePoint(scene.trace, hit))
+        if (const std::optional<SurfacePoint> p =
+                surfacePoint(scene.trace, hit, NormalDetail::Mesh))
             points.push_back({hit, *p});
     }
     return points;
@@ -118,7 +119,7 @@ double TexelGather::meanLight() const {
     std::size_t count = 0;
     for (std::size_t t = 0; t < lit.open.size(); t += step) {
         const Hit hit = hitOf(scene.trace.scene(), cut, lit, {std::uint32_t(t), 0});
-        const std::optional<SurfacePoint> p = surfacePoint(scene.trace, hit);
+        const std::optional<SurfacePoint> p = surfacePoint(scene.trace, hit, NormalDetail::Mesh);
         if (lit.open[t] == Openness::Closed || !p)
             continue;
         sum += greyOf(
@@ -275,8 +276,8 @@ std::optional<GatheredTexels> gatherTexels(const GatherScene& scene, const CutSc
                 result.irradiance[t] += shrunk.lightIn(light.at(place), part);
                 if (coefficients == 0)
                     continue;
-                addShrunk(light, shrunk, place, [&](std::uint32_t number, glm::vec3 factor) {
-                    const std::uint32_t from = lit.texelAt[number];
+                addShrunk(light, shrunk, place, [&](std::uint32_t other, glm::vec3 factor) {
+                    const std::uint32_t from = lit.texelAt[other];
                     for (std::size_t k = 0; k < coefficients; ++k)
                         result.harmonics[k * texels + t] +=
                             factor * harmonics[part][k * texels + from];

@@ -52,7 +52,7 @@ float rectangleShare(const TraceScene& trace, const std::vector<LightRectangle>&
     const glm::vec2 shift(unitFloat(bits), unitFloat(mixBits(bits)));
     float sum = 0;
     for (const LightRectangle& r : rectangles)
-        sum += shadowedIrradiance(trace, r, p, n, samples, shift, rays);
+        sum += shadowedIrradiance(trace, r, RectangleReceiver::flat(p, n), samples, shift, rays);
     return sum;
 }
 

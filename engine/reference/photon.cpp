@@ -29,7 +29,7 @@ struct Scattering {
 /// A photon's arrival at a surface. The normals are unit and face the side that it came from.
 struct Meeting {
     glm::vec3 geometricNormal;
-    glm::vec3 normal; ///< interpolated, or the geometric one if the photon comes from below that
+    glm::vec3 normal; ///< that of shading, or the geometric one if the photon comes from below that
     glm::vec3 toLight;
     bool inside;                       ///< within a body of glass
     std::optional<SurfacePoint> point; ///< none at a black back
@@ -39,11 +39,9 @@ struct Meeting {
 
 Meeting meetingOf(const TraceScene& trace, const Hit& hit, glm::vec3 direction) {
     const Scene& scene = trace.scene();
-    const Instance& instance = scene.instances[hit.instance];
     const float side = hit.frontFace ? 1.f : -1.f;
     Meeting m{.geometricNormal = side * hit.geometricNormal,
-              .normal = side * shadingNormal(scene.meshOf(instance), instance, hit.triangle,
-                                             {hit.u, hit.v}, hit.geometricNormal),
+              .normal = shadingNormalAt(scene, hit),
               .toLight = -direction,
               .inside = isWithinBody(scene, hit),
               .point = surfacePoint(trace, hit)};

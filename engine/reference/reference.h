@@ -36,7 +36,7 @@ struct ReferenceResult {
 /// Path-traced ground truth. Every surface is Lambertian with surfaceMaterial()'s albedo; in Lit
 /// the first one is also glossy and reflects all light by specularBrdf(), and where it transmits
 /// light, the eye looks through it (passRay()). To paths, it is opaque. Cosines are those of the
-/// interpolated vertex normals, without normal maps; the triangle itself bounds the visible
+/// interpolated vertex normals, bent by normal maps; the triangle itself bounds the visible
 /// hemisphere. The back of a one-sided surface is black, to the camera and to paths, and blocks
 /// light. Emission leaves the front only, unless the material is double-sided. Nothing is clamped
 /// and fireflies are not removed. Surface points, direct light, emitters and the sky are those of

@@ -109,8 +109,9 @@ glm::vec3 directIrradiance(const TraceScene& trace, const SurfacePoint& p, std::
             continue;
         if (light.kind == LightKind::Rectangle) {
             E += light.color * light.strength *
-                 shadowedIrradiance(trace, lightRectangle(light), p.position, p.normal,
-                                    kRectanglePoints, glm::vec2(0), rays);
+                 shadowedIrradiance(trace, lightRectangle(light),
+                                    {p.position, p.geometricNormal, p.normal}, kRectanglePoints,
+                                    glm::vec2(0), rays);
             continue;
         }
         ++rays;

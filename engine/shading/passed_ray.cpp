@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/shading/passed_ray.h"
 
-#include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/scene/surface/dielectric.h"
+#include "engine/shading/surface_point.h"
 
 #include <glm/geometric.hpp>
 
@@ -22,8 +22,7 @@ PassedRay passRay(const TraceScene& trace, const Hit& hit, const Ray& ray, float
         return {};
     const float side = hit.frontFace ? 1.f : -1.f;
     const glm::vec3 geometricNormal = side * hit.geometricNormal, toEye = -ray.direction;
-    glm::vec3 n = side * shadingNormal(scene.meshOf(instance), instance, hit.triangle,
-                                       {hit.u, hit.v}, hit.geometricNormal);
+    glm::vec3 n = shadingNormalAt(scene, hit);
     if (!(glm::dot(n, toEye) > 0))
         n = geometricNormal;
     const bool inside = isWithinBody(scene, hit);

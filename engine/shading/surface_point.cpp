@@ -2,6 +2,7 @@
 #include "engine/shading/surface_point.h"
 
 #include "engine/scene/mesh/triangle_geometry.h"
+#include "engine/scene/surface/normal_map.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -9,7 +10,18 @@
 
 namespace limn {
 
-std::optional<SurfacePoint> surfacePoint(const TraceScene& trace, const Hit& hit) {
+glm::vec3 shadingNormalAt(const Scene& scene, const Hit& hit, NormalDetail detail) {
+    const Instance& instance = scene.instances[hit.instance];
+    const glm::vec2 uv(hit.u, hit.v);
+    const glm::vec3 front =
+        shadingNormal(scene.meshOf(instance), instance, hit.triangle, uv, hit.geometricNormal);
+    return (hit.frontFace ? 1.f : -1.f) *
+           (detail == NormalDetail::Map ? mappedNormal(scene, instance, hit.triangle, uv, front)
+                                        : front);
+}
+
+std::optional<SurfacePoint> surfacePoint(const TraceScene& trace, const Hit& hit,
+                                         NormalDetail detail) {
     const Scene& scene = trace.scene();
     const Instance& instance = scene.instances[hit.instance];
     if (!hit.frontFace && !scene.materialOf(instance).doubleSided)
@@ -19,8 +31,7 @@ std::optional<SurfacePoint> surfacePoint(const TraceScene& trace, const Hit& hit
     SurfacePoint p;
     p.position = hit.position;
     p.geometricNormal = side * hit.geometricNormal;
-    p.normal = side * shadingNormal(scene.meshOf(instance), instance, hit.triangle, {hit.u, hit.v},
-                                    hit.geometricNormal);
+    p.normal = shadingNormalAt(scene, hit, detail);
     p.albedo = material.albedo;
     p.emission = material.emission;
     return p;

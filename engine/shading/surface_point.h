@@ -4,6 +4,7 @@
 #include "engine/scene/surface/specular.h"
 #include "engine/trace/trace_scene.h"
 
+#include <cstdint>
 #include <optional>
 
 namespace limn {
@@ -17,14 +18,25 @@ inline float channelSum(glm::vec3 light) {
 struct SurfacePoint {
     glm::vec3 position{0};
     glm::vec3 geometricNormal{0}; ///< unit
-    glm::vec3 normal{0}; ///< unit, interpolated from the vertices; used for shading cosines
+    glm::vec3 normal{0};          ///< unit, that of shading; see NormalDetail
     glm::vec3 albedo{0};
     glm::vec3 emission{0}; ///< [nits]
 };
 
+/// What normals of shading follow.
+enum class NormalDetail : std::uint8_t {
+    Map, ///< the vertices' normals, bent by the normal map where there is one
+    Mesh ///< the vertices' normals alone: texels are wider than the details of normal maps
+};
+
+/// Unit normal of shading at a hit, on the side that the ray came from.
+glm::vec3 shadingNormalAt(const Scene& scene, const Hit& hit,
+                          NormalDetail detail = NormalDetail::Map);
+
 /// Surface point at a hit. Returns std::nullopt for the back of a one-sided surface, which is black
 /// and blocks light. A double-sided surface reflects and emits on both sides.
-std::optional<SurfacePoint> surfacePoint(const TraceScene& trace, const Hit& hit);
+std::optional<SurfacePoint> surfacePoint(const TraceScene& trace, const Hit& hit,
+                                         NormalDetail detail = NormalDetail::Map);
 
 /// A surface point with its reflection towards the eye.
 struct GlossyPoint {

@@ -19,8 +19,9 @@ glm::vec3 shadowedLight(const TraceScene& trace, const Light& light, const LitPo
     if (light.kind == LightKind::Rectangle) {
         if (!shines(light))
             return glm::vec3(0);
-        const float e = shadowedIrradiance(trace, lightRectangle(light), point.position,
-                                           point.normal, points, point.shift, rays);
+        const float e = shadowedIrradiance(trace, lightRectangle(light),
+                                           RectangleReceiver::flat(point.position, point.normal),
+                                           points, point.shift, rays);
         return limited(light.color * light.strength * e);
     }
     const LightSample sample = sampleLight(light, point.position);

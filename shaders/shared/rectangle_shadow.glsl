@@ -70,13 +70,18 @@ float nearestBlocker(uint firstView, Rectangle r, PackedSurface s, float height,
 vec2 quarterVisibility(uint firstView, Rectangle r, PackedSurface s, float height, float noise) {
     const float share = nearestBlocker(firstView, r, s, height, noise);
     float sum = 0.0, hidden = 0.0;
-    for (int i = 0; i < kFilterPoints; ++i)
-        sum += pointIrradiance(r, spreadPoint(r, float(i) + noise) - s.position, s.detailNormal);
+    for (int i = 0; i < kFilterPoints; ++i) {
+        const vec3 way = spreadPoint(r, float(i) + noise) - s.position;
+        const float arriving = pointIrradiance(r, way, s.detailNormal);
+        sum += arriving;
+        hidden += dot(way, s.geometricNormal) > 0.0 ? 0.0 : arriving; // below the triangle's plane
+    }
     const int looks = share < 1.0 ? kFilterPoints : 0;
     for (int i = 0; i < looks; ++i) {
         const vec3 onLight = spreadPoint(r, float(i) + noise);
-        if (blockerAt(firstView, r, s, height, mix(s.position, onLight, share)) > 0.0 ||
-            blockerAt(firstView, r, s, height, mix(s.position, onLight, kNearer * share)) > 0.0)
+        if (dot(onLight - s.position, s.geometricNormal) > 0.0 &&
+            (blockerAt(firstView, r, s, height, mix(s.position, onLight, share)) > 0.0 ||
+             blockerAt(firstView, r, s, height, mix(s.position, onLight, kNearer * share)) > 0.0))
             hidden += pointIrradiance(r, onLight - s.position, s.detailNormal);
     }
     return vec2(sum - hidden, sum);

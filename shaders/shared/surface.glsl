@@ -73,7 +73,7 @@ Surface readSurface(vec4 base) {
         s.geometricNormal = -s.geometricNormal;
     s.normal = dot(n, s.geometricNormal) > 0.0 ? n : s.geometricNormal;
     s.detailNormal = s.normal;
-    if (has(FEATURE_NORMAL_TEXTURE) && (kView == VIEW_LIT || kView == VIEW_NORMALS))
+    if (has(FEATURE_NORMAL_TEXTURE) && kView != VIEW_ALBEDO)
         s.detailNormal = mappedNormal(s.normal, side);
     s.baseColor = base.rgb;
     s.metallic = material.metallic;

@@ -191,8 +191,9 @@ TEST_F(ViewportShadows, OfARectangleAreSoftAsTracedOnes) {
                 continue;
             const LightRectangle r = lightRectangle(light);
             std::uint64_t rays = 0;
-            const float share =
-                shadowedIrradiance(trace, r, hit.position, hit.geometricNormal, 512, {}, rays);
+            const float share = shadowedIrradiance(
+                trace, r, RectangleReceiver::flat(hit.position, hit.geometricNormal), 512, {},
+                rays);
             const float whole = rectangleIrradiance(r, hit.position, hit.geometricNormal);
             const double expected = 0.4 * 8 * double(share) / double(kPi);
             const double d = double(pixel(image, x, y).g) - expected;
@@ -232,8 +233,9 @@ TEST_F(ViewportShadows, OfARectangleThatReachesThroughWallsAreAsTraced) {
                 if (!hit)
                     continue;
                 std::uint64_t rays = 0;
-                const float share = shadowedIrradiance(trace, lightRectangle(light), hit.position,
-                                                       hit.geometricNormal, 512, {}, rays);
+                const float share = shadowedIrradiance(
+                    trace, lightRectangle(light),
+                    RectangleReceiver::flat(hit.position, hit.geometricNormal), 512, {}, rays);
                 const double expected = 0.4 * 8 * double(share) / double(kPi);
                 const double d = double(pixel(image, x, y).g) - expected;
                 squares += d * d;

@@ -72,8 +72,9 @@ TEST(RectangleShadow, UnderAnEdgeIsWhatTheSeenPartSends) {
         for (std::size_t i = 0; i < line.size(); ++i) {
             std::uint64_t rays = 0;
             const glm::vec2 shift(float(i * 7 % 16) / 16, float(i * 11 % 16) / 16);
-            const double E = double(shadowedIrradiance(trace, rectangle, line.position[i],
-                                                       {0, 1, 0}, points, shift, rays));
+            const double E = double(shadowedIrradiance(
+                trace, rectangle, RectangleReceiver::flat(line.position[i], {0, 1, 0}), points,
+                shift, rays));
             const double expected = seen(panel(), roof, line.position[i]);
             EXPECT_LE(rays, points);
             squares += (E - expected) * (E - expected);
@@ -125,7 +126,8 @@ TEST(RectangleShadow, ALampOnACeilingIsNotInItsShadow) {
     const LightRectangle rectangle = lightRectangle(panel()); // in the ceiling's plane
     std::uint64_t rays = 0;
     for (const float x : {-3.f, 0.f, 2.f})
-        EXPECT_EQ(shadowedIrradiance(trace, rectangle, {x, 0, 1}, {0, 1, 0}, 16, {}, rays),
+        EXPECT_EQ(shadowedIrradiance(trace, rectangle,
+                                     RectangleReceiver::flat({x, 0, 1}, {0, 1, 0}), 16, {}, rays),
                   rectangleIrradiance(rectangle, {x, 0, 1}, {0, 1, 0}));
 }
 
@@ -165,8 +167,9 @@ TEST(RectangleShadow, OfALightThatReachesThroughWallsIsThatOfItsPartInTheRoom) {
         std::uint64_t rays = 0;
         for (std::size_t i = 0; i < floor.size(); ++i) {
             const glm::vec2 shift(float(i * 7 % 16) / 16, float(i * 11 % 16) / 16);
-            sum += double(shadowedIrradiance(trace, lightRectangle(light), floor.position[i],
-                                             floor.normal[i], 64, shift, rays));
+            sum += double(shadowedIrradiance(
+                trace, lightRectangle(light),
+                RectangleReceiver::flat(floor.position[i], floor.normal[i]), 64, shift, rays));
             expected += double(
                 rectangleIrradiance(lightRectangle(inRoom), floor.position[i], floor.normal[i]));
         }

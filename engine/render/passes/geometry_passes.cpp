@@ -210,7 +210,7 @@ static std::uint32_t variantFeatures(std::uint32_t material, std::uint32_t bands
         f &= ~FEATURE_BASE_COLOR_TEXTURE;
     if (!lit)
         f &= ~FEATURE_EMISSIVE_TEXTURE;
-    if (!mesh.tangents || (!lit && view.view != View::Normals))
+    if (!mesh.tangents || view.view == View::Albedo)
         f &= ~FEATURE_NORMAL_TEXTURE;
     if (indirect)
         f |= instance.hasLightmap ? FEATURE_LIGHTMAP : view.grid ? FEATURE_GRID : 0u;

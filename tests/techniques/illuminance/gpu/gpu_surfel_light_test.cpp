@@ -133,11 +133,12 @@ TEST_F(ViewportSurfelLight, ThatOfARectangleDiffersFromThatOfRaysByTheNoiseOfIts
         return sum / float(kLightPoints);
     };
     for (std::size_t i = 0; i < made->surfels.size(); ++i)
-        truth.push_back(
-            shaded.lights[0].color.x * shaded.lights[0].strength *
-            meanOver(i, [&](glm::vec3 p, glm::vec3 n) {
-                return shadowedIrradiance(*trace, rectangle, p, n, 1024, {0.3f, 0.7f}, rays);
-            }));
+        truth.push_back(shaded.lights[0].color.x * shaded.lights[0].strength *
+                        meanOver(i, [&](glm::vec3 p, glm::vec3 n) {
+                            return shadowedIrradiance(*trace, rectangle,
+                                                      RectangleReceiver::flat(p, n), 1024,
+                                                      {0.3f, 0.7f}, rays);
+                        }));
     const ShadowError gpu = errorOf(irradiance(), truth), cpu = errorOf(traced(), truth);
     std::printf("against 1024 rays: GPU nRMSE %.4f, bias %+.4f; CPU nRMSE %.4f, bias %+.4f\n",
                 gpu.nrmse, gpu.bias, cpu.nrmse, cpu.bias);
