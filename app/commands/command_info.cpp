@@ -26,8 +26,11 @@ namespace limn {
 
 static std::uint64_t bytesOf(const Mesh& mesh) {
     const auto bytes = [](const auto& v) { return v.size() * sizeof(v[0]); };
-    return bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.tangents) + bytes(mesh.uv0) +
-           bytes(mesh.uv1) + bytes(mesh.colors) + bytes(mesh.indices);
+    std::uint64_t further = 0;
+    for (const std::vector<glm::vec2>& uv : mesh.furtherUv)
+        further += bytes(uv);
+    return further + bytes(mesh.positions) + bytes(mesh.normals) + bytes(mesh.tangents) +
+           bytes(mesh.uv0) + bytes(mesh.uv1) + bytes(mesh.colors) + bytes(mesh.indices);
 }
 
 /// What bakes leave out: instances whose backs face sealed dark space, and the share of these backs

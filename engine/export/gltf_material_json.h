@@ -14,9 +14,9 @@
 namespace limn {
 
 /// TEXCOORD set of an exported texture that a document's material reads from set `texCoord`. Set 1
-/// is the lightmap's, so the scene's own second set moves to 2.
+/// is the lightmap's, so the scene's own sets from 1 on move up by one.
 inline std::uint32_t exportedTexCoord(std::uint32_t texCoord) {
-    return texCoord == 0 ? 0 : 2;
+    return texCoord == 0 ? 0 : texCoord + 1;
 }
 
 /// Materials of a glTF file with the textures and samplers that they use.

@@ -10,12 +10,14 @@
 
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <tuple>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 namespace limn {
 
@@ -28,6 +30,27 @@ enum class Side : std::uint8_t {
     Back   ///< the same, turned round
 };
 
+/// A mesh as it is stored: its own vertices, or, where the transform of an instance has shear,
+/// which nodes of glTF must not have, those in world space.
+struct Shape {
+    static constexpr std::uint32_t kNotPlaced = ~0U;
+    std::uint32_t mesh = 0;
+    std::uint32_t placed = kNotPlaced; ///< the instance
+    auto operator<=>(const Shape&) const = default;
+};
+
+/// Whether columns of a transform are not orthogonal.
+bool isSheared(const glm::mat4& toWorld) {
+    constexpr float kTolerance = 1e-5f; // above the rounding of products of rotations
+    const glm::mat3 m(toWorld);
+    for (int a = 0; a < 3; ++a) {
+        const glm::vec3 p = m[a], q = m[(a + 1) % 3];
+        if (std::abs(glm::dot(p, q)) > kTolerance * glm::length(p) * glm::length(q))
+            return true;
+    }
+    return false;
+}
+
 /// A glTF file in the making.
 struct GltfScene {
     const ExportScene& in;
@@ -36,12 +59,16 @@ struct GltfScene {
     GltfMaterials materials;
     Json nodes = Json::array(), meshes = Json::array(), cameras = Json::array(),
          lights = Json::array();
-    std::map<std::pair<std::uint32_t, Side>, Json> primitives; ///< without material and lightmap
-    std::map<std::uint32_t, glm::mat4> toObject; ///< of a mesh, from its positions as stored
+    std::map<std::pair<Shape, Side>, Json> primitives; ///< without material and lightmap
+    std::map<Shape, glm::mat4> toObject;               ///< from positions as stored
 
     /// The scene of meshes and charts: where charts are cut, not the exported one.
     const Scene& shapes() const { return options.cut ? options.cut->scene : in.scene; }
     std::uint32_t meshOf(std::uint32_t instance) const { return shapes().instances[instance].mesh; }
+    Shape shapeOf(std::uint32_t instance) const {
+        return {meshOf(instance),
+                isSheared(in.scene.instances[instance].toWorld) ? instance : Shape::kNotPlaced};
+    }
     const MeshCharts& chartsOf(std::uint32_t mesh) const {
         return options.cut ? options.cut->charts[mesh] : in.layout.meshes[mesh];
     }
@@ -49,7 +76,7 @@ struct GltfScene {
         return options.pages && instance < options.pages->instances.size() &&
                !options.pages->instances[instance][0].uv.empty();
     }
-    const Json& primitive(std::uint32_t mesh, Side side);
+    const Json& primitive(Shape shape, Side side);
     Json lightmapPrimitive(std::uint32_t instance, bool back);
     Json onPage(Json primitive, std::uint32_t instance, bool back, std::uint32_t page);
     void addNode(std::uint32_t instance, Json primitiveList);
@@ -58,6 +85,10 @@ struct GltfScene {
     void addLights();
     void addCameras();
 };
+
+std::string texCoordName(std::uint32_t set) {
+    return fmt::format("TEXCOORD_{}", set);
+}
 
 /// The values at the vertices in `source`, or all if that is empty; nothing of no values.
 template <class T>
@@ -77,26 +108,53 @@ std::vector<std::uint32_t> turnedRound(std::vector<std::uint32_t> indices) {
     return indices;
 }
 
-const Json& GltfScene::primitive(std::uint32_t meshIndex, Side side) {
-    const auto [known, isNew] = primitives.try_emplace({meshIndex, side});
+/// Vertices in world space. Triangles keep their order: where the instance is mirrored, they have
+/// to be turned round.
+Mesh placedMesh(Mesh mesh, const Instance& instance) {
+    const glm::mat3 linear(instance.toWorld);
+    const float mirrored = glm::determinant(linear) < 0 ? -1.f : 1.f;
+    const auto unit = [](glm::vec3 v, glm::vec3 otherwise) {
+        const float length = glm::length(v);
+        return length > 0 ? v / length : otherwise;
+    };
+    for (glm::vec3& p : mesh.positions)
+        p = glm::vec3(instance.toWorld * glm::vec4(p, 1));
+    for (glm::vec3& n : mesh.normals)
+        n = unit(instance.normalToWorld * n, {0, 1, 0});
+    for (glm::vec4& t : mesh.tangents)
+        t = glm::vec4(unit(linear * glm::vec3(t), {1, 0, 0}), mirrored * t.w);
+    return mesh;
+}
+
+const Json& GltfScene::primitive(Shape shape, Side side) {
+    const auto [known, isNew] = primitives.try_emplace({shape, side});
     if (!isNew)
         return known->second;
-    const Mesh& mesh = shapes().assets->meshes[meshIndex];
+    const std::uint32_t meshIndex = shape.mesh;
+    const bool isPlaced = shape.placed != Shape::kNotPlaced;
+    const Instance& instance = in.scene.instances[isPlaced ? shape.placed : 0];
+    const Mesh& plain = shapes().assets->meshes[meshIndex];
+    const Mesh placed = isPlaced ? placedMesh(plain, instance) : Mesh();
+    const Mesh& mesh = isPlaced ? placed : plain;
+    const bool turns =
+        (side == Side::Back) != (isPlaced && glm::determinant(glm::mat3(instance.toWorld)) < 0);
     const bool split = side != Side::Whole;
     const std::vector<std::uint32_t> source =
         split ? chartsOf(meshIndex).sourceVertex : std::vector<std::uint32_t>();
     Json json;
     Json& attributes = json["attributes"];
     if (side == Side::Back) { // shares all but what turns round
-        const Json front = primitive(meshIndex, Side::Front);
+        const Json front = primitive(shape, Side::Front);
         attributes = front["attributes"];
     } else {
         const std::vector<glm::vec3> positions = pick(mesh.positions, source);
-        attributes["POSITION"] = buffer.addPositions(positions, toObject[meshIndex]);
+        attributes["POSITION"] = buffer.addPositions(positions, toObject[shape]);
         if (!mesh.uv0.empty())
             attributes["TEXCOORD_0"] = buffer.addTexCoords(pick(mesh.uv0, source));
-        if (!mesh.uv1.empty())
-            attributes["TEXCOORD_2"] = buffer.addTexCoords(pick(mesh.uv1, source));
+        for (std::uint32_t set = 1; set < 2 + mesh.furtherUv.size(); ++set)
+            if (!mesh.uv(set).empty())
+                attributes[texCoordName(exportedTexCoord(set))] =
+                    buffer.addTexCoords(pick(mesh.uv(set), source));
         if (!mesh.colors.empty())
             attributes["COLOR_0"] = buffer.addColors(pick(mesh.colors, source));
     }
@@ -112,18 +170,22 @@ const Json& GltfScene::primitive(std::uint32_t meshIndex, Side side) {
     if (!tangents.empty())
         attributes["TANGENT"] = buffer.addTangents(tangents);
     const std::vector<std::uint32_t>& indices = split ? chartsOf(meshIndex).indices : mesh.indices;
-    json["indices"] = buffer.addIndices(side == Side::Back ? turnedRound(indices) : indices,
+    json["indices"] = buffer.addIndices(turns ? turnedRound(indices) : indices,
                                         split ? source.size() : mesh.positions.size());
-    return primitives[{meshIndex, side}] = std::move(json);
+    return primitives[{shape, side}] = std::move(json);
 }
 
 /// One side of an instance, whatever the pages of its charts.
 Json GltfScene::lightmapPrimitive(std::uint32_t instance, bool back) {
-    Json json = primitive(meshOf(instance), back ? Side::Back : Side::Front);
-    json["attributes"]["TEXCOORD_1"] =
-        buffer.addTexCoords(options.pages->instances[instance][back].uv);
-    if (!json["attributes"].contains("TEXCOORD_0")) // sets of coordinates are numbered without gaps
-        json["attributes"]["TEXCOORD_0"] = json["attributes"]["TEXCOORD_1"];
+    Json json = primitive(shapeOf(instance), back ? Side::Back : Side::Front);
+    Json& attributes = json["attributes"];
+    attributes["TEXCOORD_1"] = buffer.addTexCoords(options.pages->instances[instance][back].uv);
+    // Sets of coordinates are numbered without gaps.
+    const Mesh& mesh = shapes().assets->meshes[meshOf(instance)];
+    for (std::uint32_t set = exportedTexCoord(1 + std::uint32_t(mesh.furtherUv.size())); set-- > 0;)
+        if (const std::string name = texCoordName(set);
+            !attributes.contains(name) && (set == 0 || attributes.contains(texCoordName(set + 1))))
+            attributes[name] = attributes["TEXCOORD_1"];
     return json;
 }
 
@@ -131,6 +193,9 @@ Json GltfScene::lightmapPrimitive(std::uint32_t instance, bool back) {
 Json GltfScene::onPage(Json primitive, std::uint32_t instance, bool back, std::uint32_t page) {
     const std::vector<std::uint32_t>& pageOfChart = options.pages->instances[instance][back].page;
     const MeshCharts& charts = chartsOf(meshOf(instance));
+    const Instance& placed = in.scene.instances[instance];
+    const bool turns = back != (shapeOf(instance).placed == instance &&
+                                glm::determinant(glm::mat3(placed.toWorld)) < 0);
     std::vector<std::uint32_t> indices;
     for (std::size_t t = 0; t < charts.chartOfTriangle.size(); ++t)
         if (pageOfChart[charts.chartOfTriangle[t]] == page)
@@ -140,7 +205,7 @@ Json GltfScene::onPage(Json primitive, std::uint32_t instance, bool back, std::u
         return {};
     if (indices.size() < charts.indices.size())
         primitive["indices"] =
-            buffer.addIndices(back ? turnedRound(indices) : indices, charts.sourceVertex.size());
+            buffer.addIndices(turns ? turnedRound(indices) : indices, charts.sourceVertex.size());
     return primitive;
 }
 
@@ -151,7 +216,9 @@ void GltfScene::addNode(std::uint32_t i, Json primitiveList) {
     if (object != in.document.objects.end())
         node["name"] = objectName(object->second);
     node["mesh"] = meshes.size();
-    if (const glm::mat4 toWorld = instance.toWorld * toObject[meshOf(i)]; toWorld != glm::mat4(1))
+    const Shape shape = shapeOf(i);
+    const glm::mat4 placement = shape.placed == i ? glm::mat4(1) : instance.toWorld;
+    if (const glm::mat4 toWorld = placement * toObject[shape]; toWorld != glm::mat4(1))
         node["matrix"] = matrixJson(toWorld);
     if (i < options.reflections.size() && options.reflections[i] > 0)
         node["extras"]["limn"]["reflection"] = options.reflections[i];
@@ -185,7 +252,7 @@ void GltfScene::addInstance(std::uint32_t i) {
     if (hasLightmap(i))
         return addLightmapped(i);
     const Instance& instance = in.scene.instances[i];
-    Json json = primitive(meshOf(i), Side::Whole);
+    Json json = primitive(shapeOf(i), Side::Whole);
     json["material"] = materials.index(in.scene.materialOf(instance), instance.material, false, 0);
     addNode(i, Json::array({std::move(json)}));
 }

@@ -24,23 +24,58 @@ tl::unexpected<Error> truncated() {
     return fail("truncated HDR");
 }
 
-/// Reads up to the end of the line, which is consumed, too.
+/// Reads up to the end of the line, which is consumed, too. Lines may end as on Windows.
 std::string_view takeLine(std::string_view& rest) {
-    const std::string_view line = rest.substr(0, rest.find('\n'));
+    std::string_view line = rest.substr(0, rest.find('\n'));
     rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+    if (line.ends_with('\r'))
+        line.remove_suffix(1);
     return line;
 }
 
-/// Parses one axis of "-Y 480 +X 640": a number after the letters of its axis.
-bool takeNumber(std::string_view& line, std::string_view axis, std::uint32_t& number) {
-    if (!line.starts_with(axis))
-        return false;
-    line.remove_prefix(axis.size());
+/// Reads a number, and the spaces after it.
+template <class T>
+bool takeNumber(std::string_view& line, T& number) {
+    line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
     const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), number);
     line.remove_prefix(std::size_t(end - line.data()));
     line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
-    return error == std::errc() && number > 0;
+    return error == std::errc();
 }
+
+/// Size and direction of texels along an axis.
+struct Axis {
+    std::uint32_t texels = 0;
+    bool isReversed = false; ///< from the bottom, or from the right
+};
+
+/// Parses one axis of "-Y 480 +X 640". Rows usually go down, against Y, and columns along X.
+bool takeAxis(std::string_view& line, char letter, char usualSign, Axis& axis) {
+    if (line.size() < 2 || (line[0] != '-' && line[0] != '+') || line[1] != letter)
+        return false;
+    axis.isReversed = line[0] != usualSign;
+    line.remove_prefix(2);
+    return takeNumber(line, axis.texels) && axis.texels > 0;
+}
+
+/// What texels are to be divided by: their exposures and colour corrections, which may be given
+/// several times (Ward. The RADIANCE Lighting Simulation and Rendering System. 1994).
+struct Correction {
+    glm::dvec3 factor{1};
+
+    Result<void> read(std::string_view line) {
+        const bool isColor = line.starts_with("COLORCORR=");
+        if (!isColor && !line.starts_with("EXPOSURE="))
+            return {};
+        line.remove_prefix(line.find('=') + 1);
+        glm::dvec3 number(1);
+        for (int c = 0; c < (isColor ? 3 : 1); ++c)
+            if (!takeNumber(line, number[c]) || !(number[c] > 0) || !std::isfinite(number[c]))
+                return fail("malformed HDR: EXPOSURE or COLORCORR is not above 0");
+        factor *= isColor ? number : glm::dvec3(number.x);
+        return {};
+    }
+};
 
 glm::vec3 colorOf(const Rgbe& texel) {
     constexpr int kBias = 128 + 8; // of the exponent, and of mantissas of 8 bits
@@ -91,18 +126,29 @@ Result<void> readRow(Bytes& rest, std::vector<Rgbe>& row) {
 
 bool isHdr(Bytes file) {
     const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
-    return text.starts_with("#?RADIANCE\n") || text.starts_with("#?RGBE\n");
+    return text.starts_with("#?RADIANCE") || text.starts_with("#?RGBE");
 }
 
 Result<ImageF> decodeHdr(Bytes file, const MemoryBudget& memory) {
     std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
     bool isRgbe = false;
-    for (std::string_view line = takeLine(text); !line.empty(); line = takeLine(text))
+    Correction correction;
+    for (std::string_view line = takeLine(text); !line.empty(); line = takeLine(text)) {
         isRgbe = isRgbe || line == "FORMAT=32-bit_rle_rgbe";
+        if (line == "FORMAT=32-bit_rle_xyze")
+            return fail("HDR in CIE XYZ is not supported");
+        if (const Result<void> read = correction.read(line); !read)
+            return tl::make_unexpected(read.error());
+    }
     std::string_view size = takeLine(text);
-    ImageF image;
-    if (!isRgbe || !takeNumber(size, "-Y ", image.height) || !takeNumber(size, "+X ", image.width))
+    if (size.size() > 1 && size[1] == 'X')
+        return fail("HDR whose columns come one after another is not supported");
+    Axis rows, columns;
+    if (!isRgbe || !takeAxis(size, 'Y', '-', rows) || !takeAxis(size, 'X', '+', columns))
         return malformed();
+    ImageF image;
+    image.width = columns.texels;
+    image.height = rows.texels;
     const std::uint64_t texels = std::uint64_t(image.width) * image.height;
     if (texels > kMaxTexels)
         return fail("too large");
@@ -119,9 +165,15 @@ Result<ImageF> decodeHdr(Bytes file, const MemoryBudget& memory) {
     for (std::uint32_t y = 0; y < image.height; ++y) {
         if (const Result<void> read = readRow(rest, row); !read)
             return tl::make_unexpected(read.error());
+        if (columns.isReversed)
+            std::ranges::reverse(row);
         for (const Rgbe& texel : row)
-            image.rgb.push_back(colorOf(texel));
+            image.rgb.emplace_back(glm::dvec3(colorOf(texel)) / correction.factor);
     }
+    for (std::uint32_t y = 0; rows.isReversed && y < image.height / 2; ++y)
+        std::swap_ranges(image.rgb.begin() + std::ptrdiff_t(y) * image.width,
+                         image.rgb.begin() + std::ptrdiff_t(y + 1) * image.width,
+                         image.rgb.end() - std::ptrdiff_t(y + 1) * image.width);
     return image;
 }
 

@@ -7,6 +7,7 @@
 #include "engine/files/hdr_image.h"
 #include "engine/scene/decode_image.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -167,6 +168,13 @@ static Result<ImageF> readExr(const std::string& path, std::span<const std::uint
         for (std::size_t k = 0; k < out.rgb.size(); ++k)
             out.rgb[k][int(i)] = plane[k];
     }
+    // tinyexr turns files around whose lines are stored from the last to the first. Every line says
+    // which one it is, so that their order changes nothing.
+    constexpr int kDecreasing = 1;
+    for (std::uint32_t y = 0; exr.header.line_order == kDecreasing && y < out.height / 2; ++y)
+        std::swap_ranges(out.rgb.begin() + std::ptrdiff_t(y) * out.width,
+                         out.rgb.begin() + std::ptrdiff_t(y + 1) * out.width,
+                         out.rgb.end() - std::ptrdiff_t(y + 1) * out.width);
     return out;
 }
 

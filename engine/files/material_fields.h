@@ -24,7 +24,7 @@ inline constexpr FieldRange kFlipbookFrames{1, 256};
 template <class Fields, class T>
 void describeTexture(Fields& fields, T& t) {
     fields("image", t.image, FieldRange{-1});
-    fields("texCoord", t.texCoord, kUnitRange);
+    fields("texCoord", t.texCoord, FieldRange{0, kMaxUvSets - 1});
     fields("offset", t.offset);
     fields("scale", t.scale);
     fields("rotation", t.rotation);

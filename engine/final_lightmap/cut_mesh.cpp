@@ -273,6 +273,9 @@ std::uint32_t MeshCutter::blend(std::uint32_t t, glm::dvec2 b) {
         mesh.uv0.push_back(mixed(mesh.uv0));
     if (!mesh.uv1.empty())
         mesh.uv1.push_back(mixed(mesh.uv1));
+    for (std::vector<glm::vec2>& uv : mesh.furtherUv)
+        if (!uv.empty())
+            uv.push_back(mixed(uv));
     if (!mesh.colors.empty())
         mesh.colors.push_back(mixed(mesh.colors));
     return index;

@@ -188,7 +188,21 @@ static Result<const tinygltf::Accessor*> checkedAccessor(const tinygltf::Model& 
     return &accessor;
 }
 
-Result<AccessorValues> readNumbers(const tinygltf::Model& model, int index) {
+Result<std::size_t> countOfAccessor(const tinygltf::Model& model, int index) {
+    const Result<const tinygltf::Accessor*> checked = checkedAccessor(model, index);
+    if (!checked)
+        return tl::make_unexpected(checked.error());
+    const tinygltf::Accessor& accessor = **checked;
+    const Result<Elements> elements = baseElements(
+        model, accessor, componentSize(accessor.componentType) * componentCount(accessor.type));
+    if (!elements)
+        return failAt<std::size_t>(index, elements.error());
+    return elements->count;
+}
+
+/// Reads `rows`, or all where that is null.
+static Result<AccessorValues> readRows(const tinygltf::Model& model, int index,
+                                       const std::span<const std::uint32_t>* rows) {
     const Result<const tinygltf::Accessor*> checked = checkedAccessor(model, index);
     if (!checked)
         return tl::make_unexpected(checked.error());
@@ -199,19 +213,40 @@ Result<AccessorValues> readNumbers(const tinygltf::Model& model, int index) {
     const Result<Elements> elements = baseElements(model, accessor, step * out.components);
     if (!elements)
         return failAt<AccessorValues>(index, elements.error());
-    out.values.resize(elements->count * out.components);
+    if (rows && !rows->empty() && rows->back() >= elements->count)
+        return failAt<AccessorValues>(
+            index, {fmt::format("has {} elements, not {}", elements->count, rows->back() + 1)});
+    const std::size_t count = rows ? rows->size() : elements->count;
+    out.values.resize(count * out.components);
     const auto put = [&](std::size_t row, const std::uint8_t* bytes) {
         float* to = &out.values[row * out.components];
         for (std::uint32_t c = 0; c < out.components; ++c)
             to[c] = loadNumber(bytes + c * step, accessor.componentType, accessor.normalized);
     };
     if (elements->first)
-        for (std::size_t i = 0; i < elements->count; ++i)
-            put(i, (*elements)[i]);
-    if (const Result<void> sparse = forEachSparse(model, accessor, step * out.components, put);
+        for (std::size_t i = 0; i < count; ++i)
+            put(i, (*elements)[rows ? (*rows)[i] : i]);
+    const auto putSparse = [&](std::uint32_t row, const std::uint8_t* bytes) {
+        if (!rows)
+            return put(row, bytes);
+        if (const auto found = std::ranges::lower_bound(*rows, row);
+            found != rows->end() && *found == row)
+            put(std::size_t(found - rows->begin()), bytes);
+    };
+    if (const Result<void> sparse =
+            forEachSparse(model, accessor, step * out.components, putSparse);
         !sparse)
         return failAt<AccessorValues>(index, sparse.error());
     return out;
+}
+
+Result<AccessorValues> readNumbers(const tinygltf::Model& model, int index) {
+    return readRows(model, index, nullptr);
+}
+
+Result<AccessorValues> readNumbers(const tinygltf::Model& model, int index,
+                                   std::span<const std::uint32_t> rows) {
+    return readRows(model, index, &rows);
 }
 
 Result<std::vector<std::uint32_t>> readIndices(const tinygltf::Model& model, int index) {

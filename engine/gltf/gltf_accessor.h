@@ -32,6 +32,14 @@ struct AccessorValues {
 /// views and buffers.
 Result<AccessorValues> readNumbers(const tinygltf::Model& model, int accessor);
 
+/// The same for some of its rows, in ascending order. Primitives may share an accessor of which
+/// each uses a few rows.
+Result<AccessorValues> readNumbers(const tinygltf::Model& model, int accessor,
+                                   std::span<const std::uint32_t> rows);
+
+/// Number of elements of an accessor. Fails as readNumbers() does where they do not fit.
+Result<std::size_t> countOfAccessor(const tinygltf::Model& model, int accessor);
+
 /// Reads scalars of an unsigned integer type.
 Result<std::vector<std::uint32_t>> readIndices(const tinygltf::Model& model, int accessor);
 

@@ -3,6 +3,9 @@
 
 #include "engine/core/hash.h"
 #include "engine/core/read_file.h"
+#include "engine/gltf/data_uri.h"
+#include "engine/gltf/gltf_chunks.h"
+#include "engine/gltf/gltf_plain.h"
 #include "engine/gltf/gltf_schema.h"
 #include "engine/gltf/gltf_size.h"
 
@@ -21,32 +24,32 @@ namespace limn {
 namespace fs = std::filesystem;
 
 /// Required extensions that are supported.
-static constexpr std::array<std::string_view, 8> kKnownExtensions = {
-    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",        "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_transmission", "KHR_materials_volume",
-    "KHR_mesh_quantization",   "KHR_texture_transform"};
+static constexpr std::array<std::string_view, 10> kKnownExtensions = {
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_transmission",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform"};
 
 /// tinygltf descends recursively into extras.
 static constexpr int kMaxJsonDepth = 128;
 
 namespace {
 
-/// A buffer or an image in a file of its own.
-struct ExternalFile {
-    bool isBuffer = false;
-    std::size_t index = 0; ///< in the root's `buffers` or `images`
-    std::string uri;
-    std::uint64_t length = 0; ///< of a buffer; its file may be longer, which tinygltf would refuse
-};
-
 /// State of tinygltf's callbacks.
 struct LoadState {
     std::string folder;
     FileReach reach = FileReach::Folder;
     std::uint64_t maxBytes = 0;      ///< of one file
-    std::vector<ExternalFile> files; ///< in the order in which tinygltf reads them
-    std::size_t filesRead = 0;
-    std::string bufferProblem; ///< why the last buffer's file could not be read
+    std::string_view binary;         ///< the chunk of a .glb
+    std::vector<GltfSource> sources; ///< in the order in which tinygltf reads them
+    std::size_t sourcesRead = 0;
+    std::string bufferProblem; ///< why the last buffer could not be read
     std::vector<std::vector<std::uint8_t>> encodedImages;
     std::vector<std::string> imageProblems; ///< as GltfFile
 };
@@ -54,7 +57,7 @@ struct LoadState {
 } // namespace
 
 /// tinygltf searches for each file in its folder, then in the working directory. The path it asks
-/// for is ignored: readWholeFile() finds the file independently.
+/// for is ignored: readSource() finds the bytes independently.
 static bool fileExists(const std::string&, void*) {
     return true;
 }
@@ -63,28 +66,53 @@ static std::string samePath(const std::string& path, void*) {
     return path;
 }
 
-static bool readWholeFile(std::vector<unsigned char>* out, std::string* error, const std::string&,
-                          void* user) {
+static Result<std::string> bytesOf(const LoadState& state, const GltfSource& source) {
+    if (!source.problem.empty())
+        return fail(source.problem);
+    if (source.isBuffer && source.length == 0)
+        return std::string(1, '\0');
+    if (source.uri.empty())
+        return std::string(state.binary);
+    if (isDataUri(source.uri))
+        return dataOfUri(source.uri);
+    const Result<std::string> path = fileOfUri(state.folder, source.uri, state.reach);
+    return path ? readFile(*path, state.maxBytes) : path;
+}
+
+/// How a message names a buffer's source.
+static std::string nameOf(const GltfSource& source) {
+    const std::string field = fmt::format("buffers[{}].uri", source.index);
+    return source.uri.empty() || isDataUri(source.uri) ? field
+                                                       : fmt::format("{}: {}", field, source.uri);
+}
+
+static bool readSource(std::vector<unsigned char>* out, std::string* error, const std::string&,
+                       void* user) {
     LoadState& state = *static_cast<LoadState*>(user);
-    if (state.filesRead == state.files.size())
+    if (state.sourcesRead == state.sources.size())
         return false;
-    const ExternalFile& file = state.files[state.filesRead++];
-    const Result<std::string> path = fileOfUri(state.folder, file.uri, state.reach);
-    const Result<std::string> bytes = path ? readFile(*path, state.maxBytes) : path;
-    if (!bytes || bytes->empty()) {
-        const std::string problem = bytes ? "is empty" : bytes.error().message;
-        if (file.isBuffer)
-            state.bufferProblem =
-                fmt::format("buffers[{}].uri: {}: {}", file.index, file.uri, problem);
+    const GltfSource& source = state.sources[state.sourcesRead++];
+    Result<std::string> bytes = bytesOf(state, source);
+    std::string problem;
+    if (!bytes)
+        problem = bytes.error().message;
+    else if (bytes->empty())
+        problem = "is empty";
+    else if (source.isBuffer && bytes->size() < source.length)
+        problem = fmt::format("has {} bytes of {}", bytes->size(), source.length);
+    if (!problem.empty()) {
+        if (source.isBuffer)
+            state.bufferProblem = fmt::format("{}: {}", nameOf(source), problem);
         else
-            state.imageProblems[file.index] = "cannot be read: " + problem;
+            state.imageProblems[source.index] =
+                source.problem.empty() ? "cannot be read: " + problem : problem;
         if (error)
             *error = problem;
         return false;
     }
+    if (source.isBuffer)
+        bytes->resize(std::max<std::size_t>(std::size_t(source.length), 1));
     out->assign(bytes->begin(), bytes->end());
-    if (file.isBuffer && out->size() > file.length)
-        out->resize(std::size_t(file.length));
     return true;
 }
 
@@ -128,33 +156,6 @@ static bool tooDeep(std::string_view text) {
     return false;
 }
 
-static bool isGlb(std::string_view bytes) {
-    return bytes.starts_with("glTF");
-}
-
-/// The JSON text of the file; for a .glb its first chunk.
-static Result<std::string_view> jsonText(std::string_view bytes) {
-    const std::size_t first = bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-    if (!isGlb(bytes) && first != std::string_view::npos && bytes[first] != '{')
-        return fail("neither glTF nor GLB");
-    if (!isGlb(bytes))
-        return bytes;
-    if (bytes.size() < 20)
-        return fail("GLB header: truncated");
-    std::array<std::uint32_t, 5> header;
-    std::memcpy(header.data(), bytes.data(), sizeof header);
-    if (header[1] != 2)
-        return fail(fmt::format("GLB header: version {} is not supported", header[1]));
-    if (header[2] > bytes.size())
-        return fail(fmt::format("GLB header: length {} exceeds the file's {} bytes", header[2],
-                                bytes.size()));
-    if (header[4] != 0x4E4F534A)
-        return fail("GLB: the first chunk is not JSON");
-    if (header[3] > bytes.size() - 20)
-        return fail("GLB: the JSON chunk exceeds the file");
-    return bytes.substr(20, header[3]);
-}
-
 static Result<void> checkExtensions(const nlohmann::json& json) {
     for (const nlohmann::json& name : json.value("extensionsRequired", nlohmann::json::array()))
         if (std::ranges::find(kKnownExtensions, name.get<std::string>()) == kKnownExtensions.end())
@@ -171,22 +172,6 @@ static Result<void> checkExtensions(const nlohmann::json& json) {
                     if (!accessors[index.get<std::size_t>()].contains("bufferView"))
                         return fail(fmt::format("meshes[{}]: {} is not supported", m, kDraco));
     return {};
-}
-
-/// External files in the order in which tinygltf reads them: all buffers, then all images.
-static std::vector<ExternalFile> externalFiles(const nlohmann::json& json) {
-    std::vector<ExternalFile> files;
-    for (const char* kind : {"buffers", "images"}) {
-        const auto list = json.find(kind);
-        for (std::size_t i = 0; list != json.end() && i < list->size(); ++i) {
-            const nlohmann::json& one = (*list)[i];
-            const std::string uri = one.value("uri", "");
-            if (!uri.empty() && !uri.starts_with("data:") && !one.contains("bufferView"))
-                files.push_back({kind == std::string_view("buffers"), i, uri,
-                                 std::uint64_t(one.value("byteLength", 0.0))});
-        }
-    }
-    return files;
 }
 
 /// Parses and checks the JSON before tinygltf does, so that errors name the field.
@@ -210,23 +195,16 @@ static Result<nlohmann::json> readJson(std::string_view text) {
     return json;
 }
 
-static Result<void> parseModel(std::string_view bytes, std::string_view json, LoadState& state,
-                               tinygltf::Model& model) {
+static Result<void> parseModel(const std::string& json, LoadState& state, tinygltf::Model& model) {
     tinygltf::TinyGLTF loader;
-    loader.SetFsCallbacks({fileExists, samePath, readWholeFile, nullptr, &state});
+    loader.SetFsCallbacks({fileExists, samePath, readSource, nullptr, &state});
     loader.SetImageLoader(keepEncoded, &state);
     std::string error, warning;
     bool loaded = false;
-    // tinygltf joins paths to the folder, but requests no file that it does not find there.
-    const std::string folder = state.folder.empty() ? "." : state.folder;
     try {
-        loaded =
-            isGlb(bytes)
-                ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                              reinterpret_cast<const unsigned char*>(bytes.data()),
-                                              unsigned(bytes.size()), folder, 0)
-                : loader.LoadASCIIFromString(&model, &error, &warning, json.data(),
-                                             unsigned(json.size()), folder, 0);
+        // tinygltf joins names to a folder, but requests no file that it does not find there.
+        loaded = loader.LoadASCIIFromString(&model, &error, &warning, json.data(),
+                                            unsigned(json.size()), ".", 0);
     } catch (const std::exception& e) { // libtinygltf 2.7 throws on some malformed files
         return fail(fmt::format("malformed glTF ({})", e.what()));
     }
@@ -234,6 +212,11 @@ static Result<void> parseModel(std::string_view bytes, std::string_view json, Lo
         return fail(state.bufferProblem);
     if (!loaded)
         return fail(error.empty() ? "malformed glTF" : firstLine(error));
+    for (tinygltf::Image& image : model.images)
+        image.uri.clear();
+    for (const GltfSource& source : state.sources)
+        if (!source.isBuffer && !isDataUri(source.uri) && source.index < model.images.size())
+            model.images[source.index].uri = source.uri;
     return {};
 }
 
@@ -242,12 +225,12 @@ Result<GltfFile> readGltfFile(const std::string& path, FileReach reach,
     const Result<std::string> main = readFile(path, std::numeric_limits<std::uint32_t>::max());
     if (!main)
         return tl::make_unexpected(main.error());
-    const Result<std::string_view> text = jsonText(*main);
-    if (!text)
-        return tl::make_unexpected(text.error());
-    if (const Result<void> fits = memory.allow("its JSON", jsonBytes(*text)); !fits)
+    const Result<GltfChunks> chunks = splitGltf(*main);
+    if (!chunks)
+        return tl::make_unexpected(chunks.error());
+    if (const Result<void> fits = memory.allow("its JSON", jsonBytes(chunks->json)); !fits)
         return tl::make_unexpected(fits.error());
-    const Result<nlohmann::json> json = readJson(*text);
+    Result<nlohmann::json> json = readJson(chunks->json);
     if (!json)
         return tl::make_unexpected(json.error());
 
@@ -256,10 +239,11 @@ Result<GltfFile> readGltfFile(const std::string& path, FileReach reach,
     state.folder = fs::path(path).parent_path().string();
     state.reach = reach;
     state.maxBytes = memory.maxBytes;
-    state.files = externalFiles(*json);
+    state.binary = chunks->binary.value_or("");
+    state.sources = makePlain(*json, !state.binary.empty());
     const auto images = json->find("images");
     state.imageProblems.resize(images == json->end() ? 0 : images->size());
-    if (const Result<void> parsed = parseModel(*main, *text, state, file.model); !parsed)
+    if (const Result<void> parsed = parseModel(json->dump(), state, file.model); !parsed)
         return tl::make_unexpected(parsed.error());
     file.encodedImages = std::move(state.encodedImages);
     file.encodedImages.resize(file.model.images.size());

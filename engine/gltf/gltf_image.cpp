@@ -35,8 +35,10 @@ static Result<Image> decodeOne(GltfFile& file, std::size_t index) {
     return image;
 }
 
-std::vector<Image> decodeImages(GltfFile& file, const Progress& progress, GltfRepairs& repairs) {
-    std::vector<Image> images(file.model.images.size());
+DecodedImages decodeImages(GltfFile& file, const Progress& progress, GltfRepairs& repairs) {
+    DecodedImages decoded;
+    std::vector<Image>& images = decoded.images;
+    images.resize(file.model.images.size());
     std::vector<std::string> problems(images.size());
     parallelRanges(images.size(), 1, progress, "images", [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -51,10 +53,11 @@ std::vector<Image> decodeImages(GltfFile& file, const Progress& progress, GltfRe
         if (!problems[i].empty()) {
             images[i].width = images[i].height = 1;
             images[i].rgba.assign(4, 255);
+            decoded.missing.push_back(std::uint32_t(i));
             repairs.sentences.push_back(
                 fmt::format("image {} '{}' {}; it is white", i, images[i].name, problems[i]));
         }
-    return images;
+    return decoded;
 }
 
 } // namespace limn

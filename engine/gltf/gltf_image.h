@@ -16,9 +16,14 @@ namespace limn {
 /// Encoded bytes of an image, from its file or from a buffer view, which may be malformed.
 Result<std::span<const std::uint8_t>> encodedImage(const GltfFile& file, std::size_t index);
 
+struct DecodedImages {
+    std::vector<Image> images;
+    std::vector<std::uint32_t> missing; ///< those that are white instead
+};
+
 /// Decodes the file's images in parallel and frees their encoded bytes. An image that is missing or
 /// cannot be decoded becomes one white texel and is reported in `repairs`. Progress stage "images";
 /// the result is incomplete when cancelled.
-std::vector<Image> decodeImages(GltfFile& file, const Progress& progress, GltfRepairs& repairs);
+DecodedImages decodeImages(GltfFile& file, const Progress& progress, GltfRepairs& repairs);
 
 } // namespace limn

@@ -9,11 +9,14 @@
 #include "engine/gltf/gltf_nodes.h"
 #include "engine/gltf/gltf_size.h"
 #include "engine/scene/reach.h"
+#include "engine/scene/surface/material_textures.h"
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <new>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -21,20 +24,104 @@
 namespace limn {
 
 /// Extensions that are supported; any other one is reported as ignored.
-static constexpr std::array<std::string_view, 8> kUsedExtensions = {
-    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",        "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_transmission", "KHR_materials_volume",
-    "KHR_mesh_quantization",   "KHR_texture_transform"};
+static constexpr std::array<std::string_view, 10> kUsedExtensions = {
+    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_transmission",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_transform"};
 
 namespace {
 
 /// A primitive of the file and the result of reading it.
 struct PrimitiveWork {
     std::size_t mesh = 0, primitive = 0;
+    std::size_t part = 0; ///< in MeshesOfGltf::parts
+    std::span<const double> weights;
     Mesh result;
     GltfRepairs repairs;
     std::string problem;
 };
+
+/// Materials whose textures need coordinates that a mesh lacks become others without these
+/// textures.
+struct MaterialsWithout {
+    std::vector<Material>& materials;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
+    GltfRepairs& repairs;
+
+    /// Index of the material that the mesh can use in place of `index`.
+    std::uint32_t usable(std::uint32_t index, const Mesh& mesh) {
+        Material reduced = materials[index];
+        std::uint32_t missing = 0;
+        const auto textures = texturesOf(reduced);
+        for (std::size_t k = 0; k < textures.size(); ++k)
+            if (textures[k]->image >= 0 && mesh.uv(textures[k]->texCoord).empty()) {
+                *textures[k] = TextureRef{};
+                missing |= 1U << k;
+            }
+        if (missing == 0)
+            return index;
+        const auto [entry, isNew] =
+            known.try_emplace({index, missing}, std::uint32_t(materials.size()));
+        if (!isNew)
+            return entry->second;
+        // Without its texture, nobody knows how much of a surface is meant to shine.
+        if (materials[index].emissiveTexture.image >= 0 && reduced.emissiveTexture.image < 0)
+            reduced.emission = glm::vec3(0);
+        repairs.sentences.push_back(
+            fmt::format("textures of material '{}' left out where meshes lack their coordinates",
+                        reduced.name));
+        materials.push_back(std::move(reduced));
+        return entry->second;
+    }
+};
+
+PrimitiveUse useOf(const std::vector<Material>& materials, const tinygltf::Primitive& primitive,
+                   std::span<const double> weights) {
+    PrimitiveUse use{.uvSets = {}, .normalMapSet = {}, .morphWeights = weights};
+    if (primitive.material < 0 || std::size_t(primitive.material) >= materials.size())
+        return use;
+    Material material = materials[std::size_t(primitive.material)];
+    for (const TextureRef* texture : texturesOf(material))
+        if (texture->image >= 0)
+            use.uvSets.insert(texture->texCoord);
+    if (material.normalTexture.image >= 0)
+        use.normalMapSet = material.normalTexture.texCoord;
+    return use;
+}
+
+/// Mesh parts for each glTF mesh, and for the morph weights of nodes that have others.
+MeshesOfGltf partsOf(const tinygltf::Model& model, std::vector<PrimitiveWork>& works) {
+    MeshesOfGltf meshes;
+    std::map<std::pair<std::size_t, std::vector<double>>, std::uint32_t> known;
+    const auto partOf = [&](std::size_t mesh, const std::vector<double>& weights) {
+        const auto [entry, isNew] =
+            known.try_emplace({mesh, weights}, std::uint32_t(meshes.parts.size()));
+        if (isNew) {
+            for (std::size_t p = 0; p < model.meshes[mesh].primitives.size(); ++p)
+                works.push_back({mesh, p, meshes.parts.size(), weights, {}, {}, {}});
+            meshes.parts.emplace_back();
+        }
+        return entry->second;
+    };
+    for (std::size_t m = 0; m < model.meshes.size(); ++m)
+        partOf(m, model.meshes[m].weights);
+    for (const tinygltf::Node& node : model.nodes) {
+        const bool hasMesh = node.mesh >= 0 && std::size_t(node.mesh) < model.meshes.size();
+        const auto mesh = hasMesh ? std::size_t(node.mesh) : 0;
+        meshes.partsOfNode.push_back(
+            !hasMesh
+                ? 0
+                : partOf(mesh, node.weights.empty() ? model.meshes[mesh].weights : node.weights));
+    }
+    return meshes;
+}
 
 } // namespace
 
@@ -42,11 +129,8 @@ static void convert(const tinygltf::Model& model, const std::vector<Material>& m
                     PrimitiveWork& work) {
     const tinygltf::Mesh& mesh = model.meshes[work.mesh];
     const tinygltf::Primitive& primitive = mesh.primitives[work.primitive];
-    const bool hasMaterial =
-        primitive.material >= 0 && std::size_t(primitive.material) < materials.size();
-    const bool normalMapped =
-        hasMaterial && materials[std::size_t(primitive.material)].normalTexture.image >= 0;
-    Result<Mesh> read = readPrimitive(model, primitive, normalMapped, work.repairs);
+    Result<Mesh> read =
+        readPrimitive(model, primitive, useOf(materials, primitive, work.weights), work.repairs);
     if (!read) {
         work.problem = fmt::format("meshes[{}].primitives[{}].{}", work.mesh, work.primitive,
                                    read.error().message);
@@ -56,18 +140,14 @@ static void convert(const tinygltf::Model& model, const std::vector<Material>& m
     work.result.name = mesh.name.empty() ? fmt::format("Mesh {}", work.mesh) : mesh.name;
     if (mesh.primitives.size() > 1)
         work.result.name += fmt::format(" {}", work.primitive);
-    work.result.material =
-        hasMaterial ? std::uint32_t(primitive.material) : std::uint32_t(materials.size());
 }
 
-/// Fills `out` with the drawable primitives and returns which glTF mesh has which.
+/// Fills `out` with the drawable primitives and returns which nodes have which.
 static Result<MeshesOfGltf> readMeshes(const tinygltf::Model& model,
                                        std::vector<Material>& materials, const Progress& progress,
                                        std::vector<Mesh>& out, GltfRepairs& repairs) {
     std::vector<PrimitiveWork> works;
-    for (std::size_t m = 0; m < model.meshes.size(); ++m)
-        for (std::size_t p = 0; p < model.meshes[m].primitives.size(); ++p)
-            works.push_back({m, p, {}, {}, {}});
+    MeshesOfGltf meshes = partsOf(model, works);
     const bool done = parallelRanges(works.size(), 1, progress, "meshes",
                                      [&](std::size_t begin, std::size_t end) {
                                          for (std::size_t i = begin; i < end; ++i)
@@ -75,21 +155,27 @@ static Result<MeshesOfGltf> readMeshes(const tinygltf::Model& model,
                                      });
     if (!done)
         return fail("cancelled");
-    MeshesOfGltf meshes(model.meshes.size());
-    bool plain = false;
+    std::optional<std::uint32_t> plain;
+    MaterialsWithout usable{materials, {}, repairs};
     for (PrimitiveWork& work : works) {
         if (!work.problem.empty())
             return fail(work.problem);
         repairs.merge(work.repairs);
         if (work.result.indices.empty())
             continue;
-        plain = plain || work.result.material == materials.size();
-        meshes[work.mesh].push_back(std::uint32_t(out.size()));
+        const int material = model.meshes[work.mesh].primitives[work.primitive].material;
+        if (material >= 0 && std::size_t(material) < model.materials.size()) {
+            work.result.material = usable.usable(std::uint32_t(material), work.result);
+        } else {
+            if (!plain) {
+                plain = std::uint32_t(materials.size());
+                materials.emplace_back();
+                materials.back().name = "Default";
+            }
+            work.result.material = *plain;
+        }
+        meshes.parts[work.part].push_back(std::uint32_t(out.size()));
         out.push_back(std::move(work.result));
-    }
-    if (plain) {
-        materials.emplace_back();
-        materials.back().name = "Default";
     }
     return meshes;
 }
@@ -99,6 +185,14 @@ static void reportUnused(const tinygltf::Model& model, GltfRepairs& repairs) {
         if (std::ranges::find(kUsedExtensions, name) == kUsedExtensions.end())
             repairs.sentences.push_back(fmt::format("extension {} is ignored", name));
     repairs.add("animations left out", model.animations.size());
+}
+
+/// Surfaces whose emissive texture is missing do not shine as if it were white.
+static void darkenWithout(const std::vector<std::uint32_t>& images, Document& document) {
+    for (auto& [id, object] : document.objects)
+        if (auto* material = std::get_if<Material>(&object);
+            material && std::ranges::count(images, material->emissiveTexture.image) > 0)
+            material->emission = glm::vec3(0);
 }
 
 static Result<ImportedScene> import(const std::string& path, const Progress& progress,
@@ -136,7 +230,9 @@ static Result<ImportedScene> import(const std::string& path, const Progress& pro
 
     if (const std::string defect = reachDefect(flatten(scene.document, assets)); !defect.empty())
         return fail(defect);
-    assets->images = decodeImages(*file, progress, repairs);
+    DecodedImages decoded = decodeImages(*file, progress, repairs);
+    assets->images = std::move(decoded.images);
+    darkenWithout(decoded.missing, scene.document);
     if (progress.cancelled())
         return fail("cancelled");
     scene.assets = std::move(assets);

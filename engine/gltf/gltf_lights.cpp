@@ -43,7 +43,7 @@ static void readSpot(Light& light, const tinygltf::SpotLight& spot, GltfRepairs&
 }
 
 static void addLight(Document& document, const tinygltf::Light& source, const std::string& nodeName,
-                     const glm::mat4& toWorld, GltfRepairs& repairs) {
+                     const glm::mat4& toWorld, bool visible, GltfRepairs& repairs) {
     Light light;
     if (source.type == "directional") {
         light.kind = LightKind::Directional;
@@ -61,6 +61,7 @@ static void addLight(Document& document, const tinygltf::Light& source, const st
         for (int c = 0; c < 3; ++c)
             light.color[c] = lightNumber(source.color[std::size_t(c)], repairs);
     light.strength = lightNumber(source.intensity, repairs);
+    light.enabled = visible;
     light.range = notNegative(source.range, repairs);
     addObject(document, light);
 }
@@ -89,7 +90,7 @@ static void addCamera(Document& document, const tinygltf::Camera& source,
 }
 
 void addLightAndCamera(Document& document, const tinygltf::Model& model, std::size_t index,
-                       const glm::mat4& toWorld, GltfRepairs& repairs) {
+                       const glm::mat4& toWorld, bool visible, GltfRepairs& repairs) {
     const tinygltf::Node& node = model.nodes[index];
     const auto extension = node.extensions.find("KHR_lights_punctual");
     if (extension != node.extensions.end() && extension->second.IsObject() &&
@@ -99,7 +100,8 @@ void addLightAndCamera(Document& document, const tinygltf::Model& model, std::si
             repairs.sentences.push_back(
                 fmt::format("nodes[{}]: light {} does not exist", index, light));
         else
-            addLight(document, model.lights[std::size_t(light)], node.name, toWorld, repairs);
+            addLight(document, model.lights[std::size_t(light)], node.name, toWorld, visible,
+                     repairs);
     }
     if (node.camera >= 0 && std::size_t(node.camera) < model.cameras.size())
         addCamera(document, model.cameras[std::size_t(node.camera)], node.name, toWorld, repairs);

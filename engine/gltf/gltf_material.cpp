@@ -2,10 +2,12 @@
 #include "engine/gltf/gltf_material.h"
 
 #include "engine/scene/light/light.h"
+#include "engine/scene/surface/material_textures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -55,7 +57,7 @@ static void applyTransform(TextureRef& texture, const tinygltf::Value& transform
     texture.scale = scale;
     texture.rotation = rotation;
     const float set = number(member(transform, "texCoord"), float(texture.texCoord));
-    texture.texCoord = set >= 0 && set < 16 ? std::uint32_t(set) : 2;
+    texture.texCoord = set >= 0 && set < float(kMaxUvSets) ? std::uint32_t(set) : kMaxUvSets;
 }
 
 template <class Info>
@@ -79,8 +81,8 @@ static TextureRef readTexture(const tinygltf::Model& model, const Info& info,
     }
     if (const tinygltf::Value* transform = extension(info.extensions, "KHR_texture_transform"))
         applyTransform(texture, *transform, repairs);
-    if (texture.texCoord > 1) {
-        repairs.add("textures on TEXCOORD_2 or higher left out");
+    if (texture.texCoord >= kMaxUvSets) {
+        repairs.add(fmt::format("textures on TEXCOORD_{} or higher left out", kMaxUvSets));
         return {};
     }
     return texture;
@@ -130,6 +132,60 @@ static void readTransmission(const tinygltf::Material& source, Material& m, Gltf
     }
 }
 
+/// A texture that an extension names.
+static TextureRef readExtensionTexture(const tinygltf::Model& model, const tinygltf::Value* value,
+                                       GltfRepairs& repairs) {
+    tinygltf::TextureInfo info;
+    if (!value)
+        return {};
+    info.index = int(number(member(*value, "index"), -1));
+    info.texCoord = int(number(member(*value, "texCoord"), 0));
+    if (const tinygltf::Value* extensions = member(*value, "extensions"))
+        for (const std::string& name : extensions->Keys())
+            info.extensions[name] = extensions->Get(name);
+    return readTexture(model, info, repairs);
+}
+
+/// Up to four numbers in [0, 1]; missing ones are `missing`.
+static glm::vec4 readColor(const tinygltf::Value* value, float missing, GltfRepairs& repairs) {
+    glm::vec4 color(missing);
+    for (std::size_t c = 0;
+         value && value->IsArray() && c < std::min<std::size_t>(value->ArrayLen(), 4); ++c)
+        color[int(c)] = ranged(double(number(&value->Get(int(c)), missing)), 0, 1, repairs);
+    return color;
+}
+
+/// Converts KHR_materials_pbrSpecularGlossiness. A surface whose diffuse colour is black and whose
+/// reflection is stronger than that of a dielectric is a metal. Any other one is a dielectric, of
+/// which the strength and the colour of its reflection are left out.
+static void readSpecularGlossiness(const tinygltf::Model& model, const tinygltf::Value& e,
+                                   Material& m, GltfRepairs& repairs) {
+    constexpr float kDielectric = 0.04f; // reflectance of an index of refraction of 1.5
+    const glm::vec4 diffuse = readColor(member(e, "diffuseFactor"), 1, repairs);
+    const glm::vec4 specular = readColor(member(e, "specularFactor"), 1, repairs);
+    const bool isMetal = std::max({diffuse.x, diffuse.y, diffuse.z}) == 0 &&
+                         std::max({specular.x, specular.y, specular.z}) > kDielectric;
+    m.baseColor = glm::vec4(glm::vec3(isMetal ? specular : diffuse), diffuse.w);
+    m.metallic = isMetal ? 1.f : 0.f;
+    m.roughness = 1 - ranged(double(number(member(e, "glossinessFactor"), 1)), 0, 1, repairs);
+    m.baseColorTexture = readExtensionTexture(
+        model, member(e, isMetal ? "specularGlossinessTexture" : "diffuseTexture"), repairs);
+    m.metallicRoughnessTexture = {};
+    repairs.add("materials of specular reflection and glossiness converted to metal and roughness");
+    repairs.add("glossiness textures left out", member(e, "specularGlossinessTexture") ? 1 : 0);
+}
+
+/// Reports textures of more sets than vertices on a device have.
+static void countUvSets(Material m, GltfRepairs& repairs) {
+    std::set<std::uint32_t> sets;
+    for (const TextureRef* texture : texturesOf(m))
+        if (texture->image >= 0)
+            sets.insert(texture->texCoord);
+    repairs.add("materials that read more than two sets of texture coordinates, of which the "
+                "viewport shows two",
+                sets.size() > 2 ? 1 : 0);
+}
+
 Material readMaterial(const tinygltf::Model& model, std::size_t index, GltfRepairs& repairs) {
     const tinygltf::Material& source = model.materials[index];
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
@@ -155,6 +211,12 @@ Material readMaterial(const tinygltf::Model& model, std::size_t index, GltfRepai
     m.metallicRoughnessTexture = readTexture(model, pbr.metallicRoughnessTexture, repairs);
     m.normalTexture = readTexture(model, source.normalTexture, repairs);
     m.emissiveTexture = readTexture(model, source.emissiveTexture, repairs);
+    if (const auto* e = extension(source.extensions, "KHR_materials_pbrSpecularGlossiness"))
+        readSpecularGlossiness(model, *e, m, repairs);
+    // Without its texture, nobody knows how much of a surface is meant to shine.
+    if (source.emissiveTexture.index >= 0 && m.emissiveTexture.image < 0)
+        m.emission = glm::vec3(0);
+    countUvSets(m, repairs);
     return m;
 }
 

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -17,31 +19,42 @@ namespace {
 
 /// An attribute's name in glTF and the numbers of components it may have.
 struct Attribute {
-    const char* name;
+    std::string name;
     std::uint32_t minComponents, maxComponents;
 };
 
 } // namespace
 
-/// Reads an attribute; empty if the primitive lacks it.
-static Result<AccessorValues> readAttribute(const tinygltf::Model& model,
-                                            const tinygltf::Primitive& primitive,
-                                            const Attribute& attribute, std::size_t count) {
-    const auto found = primitive.attributes.find(attribute.name);
-    if (found == primitive.attributes.end())
-        return AccessorValues{};
-    Result<AccessorValues> values = readNumbers(model, found->second);
-    if (!values)
-        return fail(fmt::format("{}: {}", attribute.name, values.error().message));
-    if (values->components < attribute.minComponents ||
-        values->components > attribute.maxComponents)
-        return fail(fmt::format("{}: accessors[{}] has {} components", attribute.name,
-                                found->second, values->components));
-    if (values->count() != count)
-        return fail(fmt::format("{}: accessors[{}] has {} elements, POSITION has {}",
-                                attribute.name, found->second, values->count(), count));
-    return values;
-}
+namespace {
+
+/// Reads attributes of the vertices that a primitive uses.
+struct AttributeReader {
+    const tinygltf::Model& model;
+    std::vector<std::uint32_t> rows; ///< of all accessors, in ascending order
+    std::size_t count = 0;           ///< of POSITION
+
+    /// An attribute in a map of accessors; empty if that lacks it.
+    Result<AccessorValues> read(const std::map<std::string, int>& accessors,
+                                const Attribute& attribute) const {
+        const auto found = accessors.find(attribute.name);
+        if (found == accessors.end())
+            return AccessorValues{};
+        const Result<std::size_t> elements = countOfAccessor(model, found->second);
+        if (elements && *elements != count)
+            return fail(fmt::format("{}: accessors[{}] has {} elements, POSITION has {}",
+                                    attribute.name, found->second, *elements, count));
+        Result<AccessorValues> values = readNumbers(model, found->second, rows);
+        if (!values)
+            return fail(fmt::format("{}: {}", attribute.name, values.error().message));
+        if (values->components < attribute.minComponents ||
+            values->components > attribute.maxComponents)
+            return fail(fmt::format("{}: accessors[{}] has {} components", attribute.name,
+                                    found->second, values->components));
+        return values;
+    }
+};
+
+} // namespace
 
 template <class V>
 static std::vector<V> toVectors(const AccessorValues& values, float missing) {
@@ -111,11 +124,23 @@ static Result<std::vector<std::uint32_t>> readTriangles(const tinygltf::Model& m
     return asTriangles(indices, primitive.mode);
 }
 
-static Result<void> readOptional(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                                 bool withTangents, Mesh& mesh, GltfRepairs& repairs) {
-    const std::size_t count = mesh.positions.size();
+/// Brings vertex colours into the range that glTF gives them.
+static void clampColors(std::vector<glm::vec4>& colors, GltfRepairs& repairs) {
+    repairs.add("vertex colors not finite, set to 1", mendRows(colors, glm::vec4(1)));
+    std::size_t outside = 0;
+    for (glm::vec4& c : colors) {
+        const glm::vec4 inside = glm::clamp(c, 0.f, 1.f);
+        outside += c != inside;
+        c = inside;
+    }
+    repairs.add("vertex colors out of range brought into [0, 1]", outside);
+}
+
+static Result<void> readOptional(const AttributeReader& reader,
+                                 const tinygltf::Primitive& primitive, const PrimitiveUse& use,
+                                 Mesh& mesh, GltfRepairs& repairs) {
     const auto read = [&](const Attribute& attribute, auto& out, float missing) -> Result<void> {
-        Result<AccessorValues> values = readAttribute(model, primitive, attribute, count);
+        Result<AccessorValues> values = reader.read(primitive.attributes, attribute);
         if (!values)
             return tl::make_unexpected(values.error());
         out = toVectors<typename std::remove_reference_t<decltype(out)>::value_type>(*values,
@@ -127,26 +152,65 @@ static Result<void> readOptional(const tinygltf::Model& model, const tinygltf::P
         done = read({"TEXCOORD_0", 2, 2}, mesh.uv0, 0);
     if (done)
         done = read({"TEXCOORD_1", 2, 2}, mesh.uv1, 0);
+    std::size_t bad = mendRows(mesh.uv0, glm::vec2(0)) + mendRows(mesh.uv1, glm::vec2(0));
+    for (const std::uint32_t set : use.uvSets) {
+        if (set < 2 || !done)
+            continue;
+        mesh.furtherUv.resize(set - 1);
+        done = read({fmt::format("TEXCOORD_{}", set), 2, 2}, mesh.furtherUv.back(), 0);
+        bad += mendRows(mesh.furtherUv.back(), glm::vec2(0));
+    }
     if (done)
         done = read({"COLOR_0", 3, 4}, mesh.colors, 1);
-    if (done && withTangents)
+    if (done && use.normalMapSet)
         done = read({"TANGENT", 4, 4}, mesh.tangents, 0);
     if (!done)
         return done;
-    repairs.add("texture coordinates not finite, set to 0",
-                mendRows(mesh.uv0, glm::vec2(0)) + mendRows(mesh.uv1, glm::vec2(0)));
-    repairs.add("vertex colors not finite, set to 1", mendRows(mesh.colors, glm::vec4(1)));
-    std::size_t negative = 0;
-    for (glm::vec4& c : mesh.colors)
-        if (c.x < 0 || c.y < 0 || c.z < 0 || c.w < 0) {
-            c = glm::max(c, glm::vec4(0));
-            ++negative;
-        }
-    repairs.add("negative vertex colors set to 0", negative);
+    repairs.add("texture coordinates not finite, set to 0", bad);
+    clampColors(mesh.colors, repairs);
     return {};
 }
 
-static void repairTangents(Mesh& mesh, bool fromUv1, GltfRepairs& repairs) {
+/// Adds what a morph target moves, times its weight.
+static Result<void> addTarget(const AttributeReader& reader,
+                              const std::map<std::string, int>& target, float weight, Mesh& mesh) {
+    const auto add = [&](const char* name, auto& values) -> Result<void> {
+        const Result<AccessorValues> moved = reader.read(target, {name, 3, 3});
+        if (!moved)
+            return tl::make_unexpected(moved.error());
+        for (std::size_t i = 0; i < std::min(moved->count(), values.size()); ++i)
+            for (int c = 0; c < 3; ++c)
+                values[i][c] += weight * moved->row(i)[std::size_t(c)];
+        return {};
+    };
+    Result<void> done = add("POSITION", mesh.positions);
+    if (done)
+        done = add("NORMAL", mesh.normals);
+    return done ? add("TANGENT", mesh.tangents) : done;
+}
+
+static Result<void> addTargets(const AttributeReader& reader, const tinygltf::Primitive& primitive,
+                               std::span<const double> weights, Mesh& mesh) {
+    for (std::size_t k = 0; k < std::min(primitive.targets.size(), weights.size()); ++k)
+        if (weights[k] != 0)
+            if (const Result<void> added =
+                    addTarget(reader, primitive.targets[k], float(weights[k]), mesh);
+                !added)
+                return fail(fmt::format("targets[{}].{}", k, added.error().message));
+    return {};
+}
+
+/// Numbers the vertices that triangles use anew, and returns those in ascending order.
+static std::vector<std::uint32_t> usedVertices(std::vector<std::uint32_t>& indices) {
+    std::vector<std::uint32_t> used = indices;
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (std::uint32_t& i : indices)
+        i = std::uint32_t(std::ranges::lower_bound(used, i) - used.begin());
+    return used;
+}
+
+static void repairTangents(Mesh& mesh, std::uint32_t uvSet, GltfRepairs& repairs) {
     const auto bad = [](const glm::vec4& t) {
         const float length = glm::length(glm::vec3(t));
         return !(length > 0.01f && length < 100.f) || !(std::abs(t.w) == 1);
@@ -160,11 +224,11 @@ static void repairTangents(Mesh& mesh, bool fromUv1, GltfRepairs& repairs) {
             t = glm::vec4(glm::normalize(glm::vec3(t)), t.w);
         return;
     }
-    generateTangents(mesh, fromUv1);
+    generateTangents(mesh, uvSet);
 }
 
 Result<Mesh> readPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                           bool withTangents, GltfRepairs& repairs) {
+                           const PrimitiveUse& use, GltfRepairs& repairs) {
     Mesh mesh;
     if (primitive.mode >= TINYGLTF_MODE_POINTS && primitive.mode < TINYGLTF_MODE_TRIANGLES) {
         repairs.add("primitives of points or lines left out");
@@ -177,21 +241,22 @@ Result<Mesh> readPrimitive(const tinygltf::Model& model, const tinygltf::Primiti
         repairs.add("primitives without POSITION left out");
         return mesh;
     }
-    const Result<AccessorValues> positions = readNumbers(model, position->second);
-    if (!positions)
-        return fail(fmt::format("POSITION: {}", positions.error().message));
-    if (positions->components != 3)
-        return fail(fmt::format("POSITION: accessors[{}] is not VEC3", position->second));
-    mesh.positions = toVectors<glm::vec3>(*positions, 0);
-    Result<std::vector<std::uint32_t>> triangles =
-        readTriangles(model, primitive, mesh.positions.size(), repairs);
+    const Result<std::size_t> count = countOfAccessor(model, position->second);
+    if (!count)
+        return fail(fmt::format("POSITION: {}", count.error().message));
+    Result<std::vector<std::uint32_t>> triangles = readTriangles(model, primitive, *count, repairs);
     if (!triangles)
         return tl::make_unexpected(triangles.error());
     mesh.indices = std::move(*triangles);
-    if (Result<void> read = readOptional(model, primitive, withTangents, mesh, repairs); !read)
+    const AttributeReader reader{model, usedVertices(mesh.indices), *count};
+    const Result<AccessorValues> positions = reader.read(primitive.attributes, {"POSITION", 3, 3});
+    if (!positions)
+        return tl::make_unexpected(positions.error());
+    mesh.positions = toVectors<glm::vec3>(*positions, 0);
+    if (Result<void> read = readOptional(reader, primitive, use, mesh, repairs); !read)
         return tl::make_unexpected(read.error());
-    if (!primitive.targets.empty())
-        repairs.add("primitives whose morph targets are left out");
+    if (Result<void> added = addTargets(reader, primitive, use.morphWeights, mesh); !added)
+        return tl::make_unexpected(added.error());
 
     const RemovedTriangles removed = removeBadTriangles(mesh);
     repairs.add("triangles of zero area removed", removed.zeroArea);
@@ -205,8 +270,8 @@ Result<Mesh> readPrimitive(const tinygltf::Model& model, const tinygltf::Primiti
     } else {
         repairs.add("invalid normals generated", mendNormals(mesh));
     }
-    if (withTangents)
-        repairTangents(mesh, mesh.uv0.empty(), repairs);
+    if (use.normalMapSet)
+        repairTangents(mesh, *use.normalMapSet, repairs);
     return mesh;
 }
 

@@ -5,14 +5,27 @@
 #include "engine/gltf/gltf_repairs.h"
 #include "engine/scene/mesh/mesh.h"
 
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
+
 #include <tiny_gltf.h>
 
 namespace limn {
 
-/// Reads one primitive as triangles, with all guarantees of Mesh. Returns an empty mesh if nothing
-/// drawable is left. `withTangents` means that its material has a normal map. The caller sets the
-/// material index.
+/// What of a primitive is read.
+struct PrimitiveUse {
+    std::set<std::uint32_t> uvSets; ///< that its material reads, besides TEXCOORD_0 and 1
+    /// Set of the material's normal map, for which it needs tangents.
+    std::optional<std::uint32_t> normalMapSet;
+    std::span<const double> morphWeights; ///< of its targets
+};
+
+/// Reads one primitive as triangles, with all guarantees of Mesh, and only the vertices that these
+/// use. Morph targets are added with their weights. Returns an empty mesh if nothing drawable is
+/// left. The caller sets the material index.
 Result<Mesh> readPrimitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                           bool withTangents, GltfRepairs& repairs);
+                           const PrimitiveUse& use, GltfRepairs& repairs);
 
 } // namespace limn

@@ -25,7 +25,9 @@ static bool finite(const Transform& t) {
     return std::isfinite(t.rotation.x + t.rotation.y + t.rotation.z + t.rotation.w);
 }
 
-/// Normalises the rotation and replaces scales of 0 by 1. Returns false if a scale was 0.
+/// Normalises the rotation. A single scale of 0 becomes one so small that what it flattens is
+/// thinner than light can tell, and normals keep their directions. Where two scales are 0, nothing
+/// is left to see: returns false, and replaces scales of 0 by 1.
 static bool normalise(Transform& t, GltfRepairs& repairs) {
     const glm::dquat q(t.rotation);
     const double length = glm::length(q);
@@ -37,24 +39,33 @@ static bool normalise(Transform& t, GltfRepairs& repairs) {
             repairs.add("rotations brought to unit length");
         t.rotation = glm::quat(q / length);
     }
-    bool visible = true;
+    constexpr float kFlat = 1e-6f; // of the largest scale
+    const auto isZero = [&](int c) { return !(std::abs(t.scale[c]) > 1e-20f); };
+    const int zeros = int(isZero(0)) + int(isZero(1)) + int(isZero(2));
+    const glm::vec3 size = glm::abs(t.scale);
+    const float flat = kFlat * std::max({size.x, size.y, size.z});
     for (int c = 0; c < 3; ++c)
-        if (!(std::abs(t.scale[c]) > 1e-20f)) {
-            t.scale[c] = 1;
-            visible = false;
-        }
-    if (!visible)
-        repairs.add("nodes of scale 0 hidden");
-    return visible;
+        if (isZero(c))
+            t.scale[c] = zeros == 1 ? flat : 1.f;
+    if (zeros > 1)
+        repairs.add("nodes of scale 0 along two axes hidden");
+    return zeros < 2;
 }
 
 bool decompose(const glm::mat4& m, Transform& transform, GltfRepairs& repairs) {
-    const glm::dmat3 a{glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2])};
+    glm::dmat3 a{glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2])};
     glm::dvec3 scale{glm::length(a[0]), glm::length(a[1]), glm::length(a[2])};
     transform.translation = glm::dvec3(m[3]);
     if (glm::determinant(a) < 0)
         scale.x = -scale.x;
     glm::dmat3 r(1);
+    for (int c = 0; c < 3; ++c) { // a flat matrix: any third axis will do
+        const int d = (c + 1) % 3, e = (c + 2) % 3;
+        const glm::dvec3 third = glm::cross(a[d], a[e]);
+        if (scale[c] == 0 && glm::length(third) > 0)
+            a[c] = glm::normalize(third) * 1e-6 * std::max(scale[d], scale[e]);
+        scale[c] = scale[c] == 0 ? glm::length(a[c]) : scale[c];
+    }
     if (scale.x != 0 && scale.y != 0 && scale.z != 0) {
         // Gram-Schmidt orthogonalisation; without shear it changes nothing.
         r[0] = a[0] / scale.x;
@@ -224,9 +235,9 @@ readInstances(const Model& model, const tinygltf::Value& value, GltfRepairs& rep
     return out;
 }
 
-static Result<void> addInstancedMeshes(NodeReader& reader, const tinygltf::Node& source,
-                                       const tinygltf::Value& value, ObjectId id,
-                                       const Node& node) {
+static Result<void> addInstancedMeshes(NodeReader& reader, const tinygltf::Value& value,
+                                       ObjectId id, const Node& node,
+                                       const std::vector<std::uint32_t>& meshes) {
     const Result<std::vector<Transform>> transforms =
         readInstances(reader.model, value, reader.repairs);
     if (!transforms)
@@ -236,10 +247,19 @@ static Result<void> addInstancedMeshes(NodeReader& reader, const tinygltf::Node&
         instance.name = fmt::format("{} {}", node.name, i);
         instance.parent = id;
         instance.transform = (*transforms)[i];
-        instance.meshes = reader.meshes[std::size_t(source.mesh)];
+        instance.meshes = meshes;
         addObject(reader.document, std::move(instance));
     }
     return {};
+}
+
+/// What KHR_node_visibility says of a node. Nothing below a node that is not visible is.
+static bool isVisible(const tinygltf::Node& source) {
+    const auto found = source.extensions.find("KHR_node_visibility");
+    if (found == source.extensions.end() || !found->second.Has("visible"))
+        return true;
+    const tinygltf::Value& visible = found->second.Get("visible");
+    return !visible.IsBool() || visible.Get<bool>();
 }
 
 static Result<void> addNode(NodeReader& reader, const Visit& visit) {
@@ -248,7 +268,7 @@ static Result<void> addNode(NodeReader& reader, const Visit& visit) {
     Node node;
     node.name = source.name.empty() ? fmt::format("Node {}", index) : source.name;
     node.parent = visit.parent;
-    node.visible = readTransform(source, node.transform, reader.repairs);
+    node.visible = readTransform(source, node.transform, reader.repairs) && isVisible(source);
     if (!finite(node.transform))
         return fail(fmt::format("nodes[{}]: transform is not finite", index));
 
@@ -258,10 +278,11 @@ static Result<void> addNode(NodeReader& reader, const Visit& visit) {
     if (skinned)
         reader.skinned.push_back(visit.node);
     else if (source.mesh >= 0 && !instanced)
-        node.meshes = reader.meshes[std::size_t(source.mesh)];
+        node.meshes = reader.meshes.of(index);
     const ObjectId id = reader.ids[index] = addObject(reader.document, node);
     if (instanced && !skinned)
-        if (Result<void> added = addInstancedMeshes(reader, source, instancing->second, id, node);
+        if (Result<void> added =
+                addInstancedMeshes(reader, instancing->second, id, node, reader.meshes.of(index));
             !added)
             return fail(fmt::format("nodes[{}].{}", index, added.error().message));
     return {};
@@ -275,7 +296,7 @@ static Result<Skinned> addSkinned(NodeReader& reader, int index, Placements& rou
     const tinygltf::Skin& skin = reader.model.skins[std::size_t(source.skin)];
     Node node;
     node.name = source.name.empty() ? fmt::format("Skinned {}", index) : source.name;
-    node.meshes = reader.meshes[std::size_t(source.mesh)];
+    node.meshes = reader.meshes.of(std::size_t(index));
     Skinned added;
     if (!skin.joints.empty()) {
         glm::mat4 bind(1);
@@ -344,9 +365,14 @@ Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf
     if (Result<void> added = addAllSkinned(reader, placed); !added)
         return added;
     Placements placements(document);
-    for (const int node : visited)
-        addLightAndCamera(document, model, std::size_t(node),
-                          glm::mat4(placements.of(reader.ids[std::size_t(node)]).toWorld), repairs);
+    std::vector<bool> hidden(model.nodes.size());
+    for (const int node : visited) { // parents before children
+        const auto n = std::size_t(node);
+        hidden[n] = !isVisible(model.nodes[n]) ||
+                    ((*parents)[n] >= 0 && hidden[std::size_t((*parents)[n])]);
+        addLightAndCamera(document, model, n, glm::mat4(placements.of(reader.ids[n]).toWorld),
+                          !hidden[n], repairs);
+    }
     return {};
 }
 

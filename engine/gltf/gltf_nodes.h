@@ -13,8 +13,16 @@
 
 namespace limn {
 
-/// Per glTF mesh, the meshes of Assets that it became, one per drawable primitive.
-using MeshesOfGltf = std::vector<std::vector<std::uint32_t>>;
+/// The meshes of Assets that glTF meshes became, one per drawable primitive.
+struct MeshesOfGltf {
+    /// For each glTF mesh, then for each of its other morph weights.
+    std::vector<std::vector<std::uint32_t>> parts;
+    std::vector<std::uint32_t> partsOfNode; ///< per node: which of them, where it has a mesh
+
+    const std::vector<std::uint32_t>& of(std::size_t node) const {
+        return parts[partsOfNode[node]];
+    }
+};
 
 /// Adds the nodes of the default scene with their lights and cameras, and sets the document's
 /// origin from where the nodes place `placed`, the meshes of Assets. Fails on cycles and on nodes

@@ -57,14 +57,22 @@ Part imagesOf(const GltfFile& file) {
 
 Part meshesOf(const tinygltf::Model& model) {
     Part part{fmt::format("its {} meshes", model.meshes.size())};
-    for (const tinygltf::Mesh& mesh : model.meshes)
+    std::vector<std::uint64_t> bytes;
+    for (const tinygltf::Mesh& mesh : model.meshes) {
+        bytes.push_back(0);
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
             const std::uint64_t vertices = countOf(model, primitive, "POSITION");
-            // Strips and fans have up to three corners for each index.
+            // Strips and fans have up to three corners for each index. Vertices that no corner uses
+            // are not kept.
             const std::uint64_t corners =
                 primitive.indices >= 0 ? countOf(model, primitive.indices) : vertices;
-            part.bytes += vertices * kVertexBytes + 3 * corners * kIndexBytes;
+            bytes.back() += std::min(vertices, corners) * kVertexBytes + 3 * corners * kIndexBytes;
         }
+        part.bytes += bytes.back();
+    }
+    for (const tinygltf::Node& node : model.nodes) // with morph weights of its own
+        if (!node.weights.empty() && node.mesh >= 0 && std::size_t(node.mesh) < bytes.size())
+            part.bytes += bytes[std::size_t(node.mesh)];
     return part;
 }
 

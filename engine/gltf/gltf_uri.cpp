@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gltf/gltf_uri.h"
 
-#include <charconv>
+#include "engine/gltf/data_uri.h"
+
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -10,30 +11,10 @@ namespace limn {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-std::string decoded(std::string_view uri) {
-    std::string out;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        unsigned value = 0;
-        const char* const digits = uri.data() + i + 1;
-        if (uri[i] == '%' && i + 2 < uri.size() &&
-            std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
-            out += char(value);
-            i += 2;
-        } else {
-            out += uri[i];
-        }
-    }
-    return out;
-}
-
-} // namespace
-
 Result<std::string> fileOfUri(const std::string& folder, std::string_view uri, FileReach reach) {
     if (const std::size_t end = uri.find("://"); end != std::string_view::npos)
         return fail(fmt::format("{} is not supported", uri.substr(0, end + 1)));
-    const std::string name = decoded(uri);
+    const std::string name = percentDecoded(uri);
     if (name.empty() || name.find('\0') != std::string::npos)
         return fail("names no file");
     const fs::path path(name), plain = path.lexically_normal();

@@ -65,22 +65,53 @@ public:
     explicit JpegReader(Bytes bytes) : m_bytes(bytes), m_jpeg(tjInitDecompress()) {}
 
     std::optional<ImageSize> size() const {
-        int width = 0, height = 0, sampling = 0, colors = 0;
-        if (tjDecompressHeader3(m_jpeg.get(), m_bytes.data(), m_bytes.size(), &width, &height,
-                                &sampling, &colors) != 0)
+        const std::optional<Header> header = readHeader();
+        if (!header)
             return {};
-        return ImageSize{std::uint32_t(width), std::uint32_t(height)};
+        return ImageSize{std::uint32_t(header->width), std::uint32_t(header->height)};
     }
     /// Reads the texels; `rgba` must have the image's size. Parts missing at the end of a truncated
-    /// file are grey.
+    /// file are grey. Four inks become the colour that they leave of white.
     bool read(std::vector<std::uint8_t>& rgba) {
         constexpr int kAsInFile = 0; // width, bytes of a row, height
-        return tjDecompress2(m_jpeg.get(), m_bytes.data(), m_bytes.size(), rgba.data(), kAsInFile,
-                             kAsInFile, kAsInFile, TJPF_RGBA, TJFLAG_LIMITSCANS) == 0 ||
-               tjGetErrorCode(m_jpeg.get()) == TJERR_WARNING;
+        const bool hasInks = isOfInks();
+        if (tjDecompress2(m_jpeg.get(), m_bytes.data(), m_bytes.size(), rgba.data(), kAsInFile,
+                          kAsInFile, kAsInFile, hasInks ? TJPF_CMYK : TJPF_RGBA,
+                          TJFLAG_LIMITSCANS) != 0 &&
+            tjGetErrorCode(m_jpeg.get()) != TJERR_WARNING)
+            return false;
+        if (hasInks)
+            colorsOfInks(rgba);
+        return true;
     }
 
 private:
+    struct Header {
+        int width = 0, height = 0, sampling = 0, colors = 0;
+    };
+    std::optional<Header> readHeader() const {
+        Header h;
+        if (tjDecompressHeader3(m_jpeg.get(), m_bytes.data(), m_bytes.size(), &h.width, &h.height,
+                                &h.sampling, &h.colors) != 0)
+            return {};
+        return h;
+    }
+    bool isOfInks() const {
+        const std::optional<Header> header = readHeader();
+        return header && (header->colors == TJCS_CMYK || header->colors == TJCS_YCCK);
+    }
+    /// Adobe's programs, whose marker their files have, store the paper that inks leave.
+    void colorsOfInks(std::vector<std::uint8_t>& inks) const {
+        static constexpr std::array<std::uint8_t, 5> kAdobe = {'A', 'd', 'o', 'b', 'e'};
+        const Bytes header = m_bytes.first(std::min<std::size_t>(m_bytes.size(), 1 << 16));
+        const std::uint32_t flip = std::ranges::search(header, kAdobe).empty() ? 255 : 0;
+        for (std::size_t k = 0; k + 3 < inks.size(); k += 4) {
+            const std::uint32_t black = inks[k + 3] ^ flip;
+            for (std::size_t c = 0; c < 3; ++c)
+                inks[k + c] = std::uint8_t(((inks[k + c] ^ flip) * black + 127) / 255);
+            inks[k + 3] = 255;
+        }
+    }
     struct Free {
         void operator()(void* jpeg) const { tjDestroy(jpeg); }
     };

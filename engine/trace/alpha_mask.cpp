@@ -25,7 +25,7 @@ AlphaMask makeAlphaMask(const Assets& assets, const Mesh& mesh, const Material& 
     mask.factor = material.baseColor.w;
     mask.cutoff = alphaCutoff(material);
     const std::int32_t i = mask.texture.image;
-    const std::vector<glm::vec2>& uv = mask.texture.texCoord == 1 ? mesh.uv1 : mesh.uv0;
+    const std::vector<glm::vec2>& uv = mesh.uv(mask.texture.texCoord);
     if (i < 0 || std::size_t(i) >= assets.images.size() ||
         assets.images[std::size_t(i)].rgba.empty())
         return mask;

@@ -114,7 +114,7 @@ TEST(DocumentJson, AnErrorNamesTheFieldByItsPath) {
         {"/objects/1/material/ior", 1e39, "objects[1].material.ior: not a number"},
         {"/objects/1/material/thickness", -1, "objects[1].material.thickness: less than 0"},
         {"/objects/1/material/normalTexture/image", 0.5, "objects[1].material.normalTexture.image"},
-        {"/objects/1/material/normalTexture/texCoord", 2,
+        {"/objects/1/material/normalTexture/texCoord", 16,
          "objects[1].material.normalTexture.texCoord"},
         {"/objects/3/camera/fovY", 0, "objects[3].camera.fovY"},
         {"/objects/4/bakeSettings/bands", 9, "objects[4].bakeSettings.bands: more than 8"},

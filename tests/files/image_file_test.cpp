@@ -81,6 +81,54 @@ TEST(ImageFile, RowsOfAnRgbeFileMayBePacked) {
     EXPECT_EQ(image->rgb[15], image->rgb[8]);
 }
 
+/// Rows from the bottom, columns from the right, lines that end as on Windows, and texels that were
+/// multiplied before they were written.
+TEST(ImageFile, AnRgbeFileSaysHowItsTexelsAreMeant) {
+    const TemporaryFolder folder;
+    const std::string texels("\x80\x40\x20\x80\x40\x40\x40\x83", 8);
+    const auto read = [&](const std::string& header) {
+        writeFile(folder.file("i.hdr"), header + texels);
+        const Result<ImageF> image = readFloatImage(folder.file("i.hdr"));
+        EXPECT_TRUE(image) << image.error().message;
+        return image ? image->rgb : std::vector<glm::vec3>(2);
+    };
+    const std::string start = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n";
+    const glm::vec3 a(0.5f, 0.25f, 0.125f), b(2);
+    using Texels = std::vector<glm::vec3>;
+    EXPECT_EQ(read(start + "\n-Y 1 -X 2\n"), Texels({b, a}));
+    EXPECT_EQ(read(start + "\n+Y 2 +X 1\n"), Texels({b, a}));
+    EXPECT_EQ(read("#?RADIANCE\r\nFORMAT=32-bit_rle_rgbe\r\n\r\n-Y 1 +X 2\r\n"), Texels({a, b}));
+    EXPECT_EQ(read(start + "EXPOSURE=2\nEXPOSURE= 2.0\n\n-Y 1 +X 2\n"), Texels({a / 4.f, b / 4.f}));
+    EXPECT_EQ(read(start + "COLORCORR=1 2 4\n\n-Y 1 +X 2\n"),
+              Texels({{0.5f, 0.125f, 0.03125f}, {2, 1, 0.5f}}));
+    const auto problem = [&](const std::string& header) {
+        writeFile(folder.file("i.hdr"), header + texels);
+        const Result<ImageF> image = readFloatImage(folder.file("i.hdr"));
+        return image ? "" : image.error().message;
+    };
+    EXPECT_NE(problem(start + "\n+X 2 -Y 1\n").find("columns"), std::string::npos);
+    EXPECT_NE(problem(start + "EXPOSURE=0\n\n-Y 1 +X 2\n").find("EXPOSURE"), std::string::npos);
+    EXPECT_NE(problem("#?RGBE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 2\n").find("XYZ"),
+              std::string::npos);
+}
+
+/// Every line says which one it is, whatever their order.
+TEST(ImageFile, AnExrMayStoreItsLinesFromTheLastOn) {
+    const TemporaryFolder folder;
+    ImageF image{3, 40, {}};
+    for (int i = 0; i < 120; ++i)
+        image.rgb.emplace_back(float(i), 1, -float(i));
+    std::string bytes = *encodeExr(image);
+    const std::string name("lineOrder\0lineOrder\0\1\0\0\0", 24);
+    const std::size_t order = bytes.find(name);
+    ASSERT_NE(order, std::string::npos);
+    bytes[order + name.size()] = 1;
+    writeFile(folder.file("i.exr"), bytes);
+    const Result<ImageF> again = readFloatImage(folder.file("i.exr"));
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_TRUE(*again == image);
+}
+
 // stb 2.27 waits for ever for the rest of a packed row, and makes up that of a plain one.
 TEST(ImageFile, AnRgbeFileThatEndsTooSoonIsRefused) {
     const TemporaryFolder folder;
@@ -99,7 +147,7 @@ TEST(ImageFile, AnRgbeFileThatEndsTooSoonIsRefused) {
         EXPECT_NE(image.error().message.find("i.hdr: malformed HDR"), std::string::npos);
     }
     for (const char* size :
-         {"-Y 0 +X 8", "-Y 2 +X -8", "+Y 2 +X 8", "-Y 2", "-Y 2 +X 99999999999"}) {
+         {"-Y 0 +X 8", "-Y 2 +X -8", "*Y 2 +X 8", "-Y 2", "-Y 2 +X 99999999999"}) {
         std::string bad = whole;
         bad.replace(bad.find("-Y"), 9, size);
         writeFile(folder.file("i.hdr"), bad);

@@ -43,7 +43,9 @@ struct CutFloor {
         SceneCuts cuts(scene.instances.size());
         cuts[0] = {ChartCuts{{{across, glm::dot(across, a), 1}, {{}, 0, 0}, {{}, 0, 1}}}};
         cut = cutScene(scene, charts, cuts);
-        lit = layLitTexels(cut, {{1.f, 1.6f}}, {.texels = 1200}, {});
+        ChartFactors factors(scene.instances.size());
+        factors[0] = {1.f, 1.6f};
+        lit = layLitTexels(cut, factors, {.texels = 1200}, {});
         findOpenTexels(TraceScene(scene), charts, cut, lit, {});
     }
     /// Position of a floor's point in the plane of its chart.

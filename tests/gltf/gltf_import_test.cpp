@@ -259,9 +259,9 @@ TEST(GltfImport, AMirroredInstanceKeepsItsFrontOutward) {
     }
 }
 
-TEST(GltfImport, ANodeOfScaleZeroIsHidden) {
+TEST(GltfImport, ANodeOfScaleZeroAlongTwoAxesIsHidden) {
     GltfBuilder b = triangleScene();
-    b.json["nodes"][0]["scale"] = {1, 0, 1};
+    b.json["nodes"][0]["scale"] = {1, 0, 0};
     const ImportedScene scene = imported(b);
     EXPECT_TRUE(flatten(scene.document, scene.assets).instances.empty());
     EXPECT_TRUE(hasRepair(scene, "scale 0"));
@@ -438,6 +438,8 @@ TEST(GltfImport, TexturesCarrySamplerAndTransform) {
                                     {"rotation", 0.25},
                                     {"texCoord", 1}}}}}}}}}}};
     b.json["meshes"][0]["primitives"][0]["material"] = 0;
+    b.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_1"] =
+        b.accessor(b.view(std::vector<glm::vec2>(3)), "VEC2", GltfBuilder::kFloat, 3);
     const ImportedScene scene = imported(b);
     const TextureRef texture = onlyObject<Material>(scene).baseColorTexture;
     EXPECT_EQ(texture.image, 0);

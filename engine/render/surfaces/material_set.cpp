@@ -2,6 +2,7 @@
 #include "engine/render/surfaces/material_set.h"
 
 #include "engine/math/sh.h"
+#include "engine/render/surfaces/uv_slots.h"
 #include "engine/scene/surface/dielectric.h"
 #include "engine/scene/surface/receiver_bands.h"
 
@@ -63,12 +64,13 @@ GpuMaterial factorsOf(const Material& m) {
     g.transmission = m.transmission;
     g.dielectricF0 = dielectricF0(m.ior);
     const auto textures = texturesOf(m);
+    const UvSlots slots = uvSlots(m);
     for (std::size_t k = 0; k < textures.size(); ++k) {
         const TextureRef& t = textures[k].ref;
         // KHR_texture_transform: translation * rotation * scale, with rotation (c, s; -s, c) in its
         // v-down space.
         const float c = std::cos(t.rotation), s = std::sin(t.rotation);
-        g.uvRows[2 * k] = {c * t.scale.x, s * t.scale.y, t.offset.x, float(t.texCoord)};
+        g.uvRows[2 * k] = {c * t.scale.x, s * t.scale.y, t.offset.x, float(slots.of(t.texCoord))};
         g.uvRows[2 * k + 1] = {-s * t.scale.x, c * t.scale.y, t.offset.y, 0};
     }
     return g;

@@ -5,6 +5,7 @@
 #include "engine/gpu/uploader.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/lightmap/near_reach.h"
+#include "engine/render/surfaces/uv_slots.h"
 
 #include <algorithm>
 #include <limits>
@@ -38,9 +39,10 @@ std::span<const std::byte> bytesOf(const std::vector<T>& v) {
 
 } // namespace
 
-static std::vector<VertexAttributes> gatherAttributes(const MeshSource& s) {
+static std::vector<VertexAttributes> gatherAttributes(const MeshSource& s, const UvSlots& slots) {
     std::vector<VertexAttributes> out(s.vertexCount());
     const Mesh& m = s.mesh;
+    const std::vector<glm::vec2>&first = m.uv(slots.set[0]), &second = m.uv(slots.set[1]);
     parallelRanges(out.size(), 16384, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             const std::size_t v = s.source(k);
@@ -49,10 +51,10 @@ static std::vector<VertexAttributes> gatherAttributes(const MeshSource& s) {
                 a.normal = m.normals[v];
             if (!m.tangents.empty())
                 a.tangent = m.tangents[v];
-            if (!m.uv0.empty())
-                a.uv0 = m.uv0[v];
-            if (!m.uv1.empty())
-                a.uv1 = m.uv1[v];
+            if (!first.empty())
+                a.uv0 = first[v];
+            if (!second.empty())
+                a.uv1 = second[v];
             if (!m.colors.empty())
                 a.color = m.colors[v];
         }
@@ -69,7 +71,7 @@ static std::vector<Bounds> chunkBounds(const std::vector<glm::vec3>& positions,
     return chunks;
 }
 
-static GpuMesh uploadMesh(gpu::Uploader& uploader, const MeshSource& s) {
+static GpuMesh uploadMesh(gpu::Uploader& uploader, const MeshSource& s, const UvSlots& slots) {
     GpuMesh out;
     out.vertexCount = std::uint32_t(s.vertexCount());
     out.indexCount = std::uint32_t(s.indices().size());
@@ -85,7 +87,7 @@ static GpuMesh uploadMesh(gpu::Uploader& uploader, const MeshSource& s) {
     out.chunks = chunkBounds(positions, s.indices());
     out.positions =
         uploader.buffer(bytesOf(positions), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "positions");
-    out.attributes = uploader.buffer(bytesOf(gatherAttributes(s)),
+    out.attributes = uploader.buffer(bytesOf(gatherAttributes(s, slots)),
                                      VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "vertex attributes");
     out.indices =
         uploader.buffer(bytesOf(s.indices()), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "indices");
@@ -144,8 +146,12 @@ void updateRenderScene(gpu::Device& device, RenderScene& target, const Scene& sc
         target.layout = std::move(layout);
         target.meshes.clear();
         uploadSnaps(uploader, target);
-        for (std::size_t i = 0; scene.assets && i < scene.assets->meshes.size(); ++i)
-            target.meshes.push_back(uploadMesh(uploader, meshSource(target, i)));
+        for (std::size_t i = 0; scene.assets && i < scene.assets->meshes.size(); ++i) {
+            const std::uint32_t material = scene.assets->meshes[i].material;
+            const UvSlots slots =
+                material < scene.materials.size() ? uvSlots(scene.materials[material]) : UvSlots();
+            target.meshes.push_back(uploadMesh(uploader, meshSource(target, i), slots));
+        }
     }
     if (newMeshes || !sameInstances(target, scene)) {
         changed = true;

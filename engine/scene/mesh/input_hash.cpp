@@ -18,7 +18,9 @@ static std::uint64_t hashTexture(const Assets& assets, const TextureRef& t, std:
 }
 
 std::uint64_t hashMesh(const Mesh& mesh) {
-    const std::uint64_t h = hashVector(mesh.positions, hashVector(mesh.indices, 5));
+    std::uint64_t h = hashVector(mesh.positions, hashVector(mesh.indices, 5));
+    for (const std::vector<glm::vec2>& uv : mesh.furtherUv)
+        h = hashVector(uv, h);
     return hashVector(mesh.normals, hashVector(mesh.uv0, hashVector(mesh.uv1, h)));
 }
 

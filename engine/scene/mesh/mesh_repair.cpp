@@ -62,6 +62,8 @@ static void dropUnusedVertices(Mesh& mesh) {
     gather(mesh.tangents, kept);
     gather(mesh.uv0, kept);
     gather(mesh.uv1, kept);
+    for (std::vector<glm::vec2>& uv : mesh.furtherUv)
+        gather(uv, kept);
     gather(mesh.colors, kept);
 }
 
@@ -111,6 +113,8 @@ void generateFlatNormals(Mesh& mesh) {
     gather(mesh.tangents, source);
     gather(mesh.uv0, source);
     gather(mesh.uv1, source);
+    for (std::vector<glm::vec2>& uv : mesh.furtherUv)
+        gather(uv, source);
     gather(mesh.colors, source);
     mesh.normals = std::move(normals);
 }
@@ -152,8 +156,8 @@ static glm::vec3 perpendicular(glm::vec3 n) {
     return glm::normalize(glm::cross(n, axis));
 }
 
-void generateTangents(Mesh& mesh, bool fromUv1) {
-    const std::vector<glm::vec2>& uv = fromUv1 ? mesh.uv1 : mesh.uv0;
+void generateTangents(Mesh& mesh, std::uint32_t uvSet) {
+    const std::vector<glm::vec2>& uv = mesh.uv(uvSet);
     std::vector<glm::vec3> alongU(mesh.positions.size(), glm::vec3(0)), alongV = alongU;
     for (std::size_t t = 0; !uv.empty() && t < mesh.triangleCount(); ++t) {
         const auto [a, b, c] = mesh.triangle(t);

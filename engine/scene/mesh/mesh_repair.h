@@ -4,6 +4,7 @@
 #include "engine/scene/mesh/mesh.h"
 
 #include <cstddef>
+#include <cstdint>
 
 namespace limn {
 
@@ -25,8 +26,8 @@ void generateFlatNormals(Mesh& mesh);
 /// adjacent triangles' normals. Returns the number of normals replaced.
 std::size_t mendNormals(Mesh& mesh);
 
-/// Generates a tangent per vertex from the gradient of uv0 (of uv1 if `fromUv1`), orthogonal to the
-/// normal. Uses an arbitrary perpendicular direction where there is no gradient.
-void generateTangents(Mesh& mesh, bool fromUv1);
+/// Generates a tangent per vertex from the gradient of Mesh::uv(uvSet), orthogonal to the normal.
+/// Uses an arbitrary perpendicular direction where there is no gradient.
+void generateTangents(Mesh& mesh, std::uint32_t uvSet);
 
 } // namespace limn

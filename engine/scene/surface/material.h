@@ -14,11 +14,14 @@ namespace limn {
 enum class Wrap : std::uint8_t { Repeat, Clamp, Mirror };
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
+/// A material's textures may read this many sets of texture coordinates, TEXCOORD_0 and so on.
+inline constexpr std::uint32_t kMaxUvSets = 16;
+
 /// A texture as used by a material. uv' = offset + R(rotation) * (scale * uv), as in
 /// KHR_texture_transform.
 struct TextureRef {
     std::int32_t image = -1;    ///< index into Assets::images; -1: none
-    std::uint32_t texCoord = 0; ///< 0 or 1
+    std::uint32_t texCoord = 0; ///< set of coordinates, Mesh::uv()
     glm::vec2 offset{0}, scale{1};
     float rotation = 0; ///< [rad], counter-clockwise
     Wrap wrapU = Wrap::Repeat, wrapV = Wrap::Repeat;

@@ -17,7 +17,7 @@ glm::vec3 mappedNormal(const Scene& scene, const Instance& instance, std::uint32
     const Material& material = scene.materialOf(instance);
     const Mesh& mesh = scene.meshOf(instance);
     const TextureRef& texture = material.normalTexture;
-    const std::vector<glm::vec2>& uvs = texture.texCoord == 1 ? mesh.uv1 : mesh.uv0;
+    const std::vector<glm::vec2>& uvs = mesh.uv(texture.texCoord);
     if (texture.image < 0 || mesh.tangents.empty() || uvs.empty())
         return front;
     const auto [a, b, c] = mesh.triangle(triangle);

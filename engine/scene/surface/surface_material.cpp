@@ -30,15 +30,12 @@ struct TrianglePoint {
         return values[corner[0]] * weight[0] + values[corner[1]] * weight[1] +
                values[corner[2]] * weight[2];
     }
-    const std::vector<glm::vec2>& uvOf(const TextureRef& t) const {
-        return t.texCoord == 1 ? mesh.uv1 : mesh.uv0;
-    }
     /// Mean of a texture over `share` of the triangle's area; 0: at the point.
     glm::vec4 texture(const Assets& assets, const TextureRef& t, TexelKind kind,
                       float share) const {
         if (t.image < 0)
             return glm::vec4(1);
-        const std::vector<glm::vec2>& uvs = uvOf(t);
+        const std::vector<glm::vec2>& uvs = mesh.uv(t.texCoord);
         const glm::vec2 uv = interpolate(uvs, glm::vec2(0));
         if (share == 0 || uvs.empty())
             return sampleTexture(assets, t, uv, kind != TexelKind::Data);

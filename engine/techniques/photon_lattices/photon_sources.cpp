@@ -85,7 +85,7 @@ glm::vec3 emissiveTexel(const Scene& scene, const Instance& instance, std::uint3
         return glm::vec3(0);
     const TextureRef& texture = scene.materialOf(instance).emissiveTexture;
     const Mesh& mesh = scene.meshOf(instance);
-    const std::vector<glm::vec2>& uvs = texture.texCoord == 1 ? mesh.uv1 : mesh.uv0;
+    const std::vector<glm::vec2>& uvs = mesh.uv(texture.texCoord);
     glm::vec2 uv(0);
     if (!uvs.empty()) {
         const std::array<std::uint32_t, 3> k = mesh.triangle(triangle);

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: MIT
+// Kinds of files that other programs write, beyond what the specification's examples show.
+#include "engine/gltf/data_uri.h"
+#include "engine/gltf/gltf_chunks.h"
+#include "engine/gltf/gltf_import.h"
+#include "engine/scene/surface/specular.h"
+#include "tests/gltf/gltf_builder.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace limn::gltf_kinds_test {
+namespace {
+
+std::string base64(std::string_view bytes) {
+    static constexpr char kDigits[] =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string out;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t bits = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            bits = bits << 8 | (i + k < bytes.size() ? std::uint8_t(bytes[i + k]) : 0U);
+        for (std::size_t k = 0; k < 4; ++k)
+            out += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
+    }
+    return out;
+}
+
+/// The builder's JSON with its buffer in a URI of this media type.
+Result<ImportedScene> importText(const GltfBuilder& b, std::string_view header) {
+    nlohmann::json json = b.json;
+    json["buffers"] = {{{"byteLength", b.bytes.size()},
+                        {"uri", fmt::format("data:{},{}", header, base64(b.bytes))}}};
+    const TemporaryFolder folder;
+    writeFile(folder.file("scene.gltf"), json.dump());
+    return importGltf(folder.file("scene.gltf"));
+}
+
+bool reports(const ImportedScene& scene, std::string_view words) {
+    return std::ranges::any_of(scene.repairs, [&](const std::string& line) {
+        return line.find(words) != std::string::npos;
+    });
+}
+
+const Material& materialOf(const ImportedScene& scene, std::size_t mesh = 0) {
+    std::size_t k = 0;
+    for (const auto& [id, object] : scene.document.objects)
+        if (const auto* m = std::get_if<Material>(&object);
+            m && k++ == scene.assets->meshes[mesh].material)
+            return *m;
+    static const Material kNone;
+    return kNone;
+}
+
+TEST(DataUri, IsDecodedWhateverItsMediaType) {
+    for (const char* header : {"data:;base64", "data:image/jpg;base64", "DATA:image/PNG;Base64",
+                               "data:application/octet-stream;charset=utf-8;base64"})
+        EXPECT_EQ(dataOfUri(std::string(header) + ",bGlnaHQ=").value_or("?"), "light") << header;
+    EXPECT_EQ(dataOfUri("data:,a%20b").value_or("?"), "a b");
+    EXPECT_EQ(dataOfUri("data:;base64,bG ln\naHQ").value_or("?"), "light");
+    EXPECT_EQ(dataOfUri("data:;base64,").value_or("?"), "");
+    EXPECT_FALSE(dataOfUri("data:;base64,b*"));
+    EXPECT_FALSE(dataOfUri("data:;base64,bGln=aHQ="));
+    EXPECT_FALSE(dataOfUri("data:image/png"));
+    EXPECT_FALSE(dataOfUri("file.png"));
+}
+
+TEST(GltfKinds, BuffersInUrisOfAnyMediaType) {
+    const GltfBuilder b = triangleScene();
+    for (const char* header : {"application/octet-stream;base64", "model/gltf-buffer;base64",
+                               "application/octet-stream;charset=utf-8;base64", ";base64"}) {
+        const Result<ImportedScene> scene = importText(b, header);
+        ASSERT_TRUE(scene) << scene.error().message;
+        EXPECT_EQ(scene->assets->meshes.at(0).positions.at(1), glm::vec3(1, 0, 0));
+    }
+    nlohmann::json json = b.json;
+    json["buffers"] = {{{"byteLength", b.bytes.size()}, {"uri", "data:;base64,AAAA"}}};
+    const TemporaryFolder folder;
+    writeFile(folder.file("scene.gltf"), json.dump());
+    const Result<ImportedScene> scene = importGltf(folder.file("scene.gltf"));
+    ASSERT_FALSE(scene);
+    EXPECT_NE(scene.error().message.find("buffers[0].uri: has 3 bytes of"), std::string::npos)
+        << scene.error().message;
+}
+
+/// An image that cannot be decoded takes none of its neighbours' data.
+TEST(GltfKinds, ImagesKeepTheirPlaces) {
+    GltfBuilder b = triangleScene();
+    b.json["images"] = {{{"uri", "data:image/webp;base64,UklGRg=="}},
+                        {{"uri", ""}},
+                        {{"name", "lost"}},
+                        {{"uri", "none.png"}, {"bufferView", 0}, {"mimeType", "image/png"}},
+                        {{"uri", "missing.png"}}};
+    const Result<ImportedScene> scene = b.import();
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->assets->images.size(), 5U);
+    for (const Image& image : scene->assets->images)
+        EXPECT_EQ(image.rgba, std::vector<std::uint8_t>(4, 255));
+    EXPECT_TRUE(reports(*scene, "image 1 'images[1]' has no data"));
+    EXPECT_TRUE(reports(*scene, "image 2 'lost' has no data"));
+    EXPECT_TRUE(reports(*scene, "image 3 'none.png' has both a uri and a buffer view"));
+    EXPECT_TRUE(reports(*scene, "image 4 'missing.png' cannot be read"));
+}
+
+/// A surface whose emissive texture is missing does not shine as if that were white.
+TEST(GltfKinds, NothingShinesByAMissingTexture) {
+    const auto emission = [](const nlohmann::json& texture, bool hasImage) {
+        GltfBuilder b = triangleScene();
+        b.json["meshes"][0]["primitives"][0]["material"] = 0;
+        b.json["images"] = {{{"uri", "missing.png"}}};
+        b.json["textures"] = {nlohmann::json::object()};
+        if (hasImage)
+            b.json["textures"][0]["source"] = 0;
+        b.json["materials"] = {{{"emissiveFactor", {2, 1, 0.5}}, {"emissiveTexture", texture}}};
+        const Result<ImportedScene> scene = b.import();
+        EXPECT_TRUE(scene) << scene.error().message;
+        return materialOf(*scene).emission;
+    };
+    EXPECT_EQ(emission({{"index", 0}}, true), glm::vec3(0));
+    EXPECT_EQ(emission({{"index", 0}}, false), glm::vec3(0));
+    EXPECT_EQ(emission({{"index", 0}, {"texCoord", 2}}, true), glm::vec3(0));
+    EXPECT_EQ(emission({{"index", 0}, {"texCoord", 99}}, true), glm::vec3(0));
+}
+
+TEST(GltfKinds, WholeNumbersMayHaveAPoint) {
+    GltfBuilder b = triangleScene();
+    const int t = b.vec3({{1, 0, 0}, {3, 0, 0}});
+    b.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+        double(t);
+    b.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0.0}}}}}});
+    b.json["scenes"][0]["nodes"] = {0.0, 1.0};
+    b.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    b.json["accessors"][0]["count"] = 3.0;
+    std::string glb = b.glb();
+    ASSERT_NE(glb.find("\"light\":0.0"), std::string::npos); // as it was written
+    const Result<ImportedScene> scene = b.import();
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Scene flat = flatten(scene->document, scene->assets);
+    EXPECT_EQ(flat.instances.size(), 2U);
+    EXPECT_EQ(flat.lights.size(), 1U);
+}
+
+std::string chunk(std::uint32_t type, std::string bytes) {
+    const auto size = std::uint32_t(bytes.size());
+    std::string out(8, '\0');
+    std::memcpy(out.data(), &size, 4);
+    std::memcpy(out.data() + 4, &type, 4);
+    return out + bytes;
+}
+std::string glbOf(const std::string& chunks) {
+    const std::uint32_t version = 2, length = std::uint32_t(12 + chunks.size());
+    std::string out = "glTF" + std::string(8, '\0');
+    std::memcpy(out.data() + 4, &version, 4);
+    std::memcpy(out.data() + 8, &length, 4);
+    return out + chunks;
+}
+
+TEST(GlbChunks, OfUnknownTypeArePassedOver) {
+    const std::string json = chunk(0x4E4F534A, "{}  "), unknown = chunk(0x58585858, "abcd"),
+                      binary = chunk(0x004E4942, "1234");
+    const std::string all = glbOf(json + unknown + binary + unknown);
+    const Result<GltfChunks> split = splitGltf(all);
+    ASSERT_TRUE(split) << split.error().message;
+    EXPECT_EQ(split->json, "{}  ");
+    EXPECT_EQ(split->binary.value_or(""), "1234");
+    const std::string empty = glbOf(json + chunk(0x004E4942, ""));
+    EXPECT_EQ(splitGltf(empty)->binary.value_or("?"), "");
+    EXPECT_FALSE(splitGltf(glbOf(unknown + json)));
+    EXPECT_FALSE(splitGltf(all.substr(0, all.size() - 3)));
+    std::string longer = glbOf(json + binary);
+    longer[12 + 8 + 4] = 100; // the length of the binary chunk
+    EXPECT_FALSE(splitGltf(longer));
+}
+
+TEST(GltfKinds, AnEmptyBinaryChunkIsAsNone) {
+    const GltfBuilder b = triangleScene();
+    nlohmann::json json = b.json;
+    json["buffers"] = {
+        {{"byteLength", b.bytes.size()}, {"uri", fmt::format("data:;base64,{}", base64(b.bytes))}}};
+    const TemporaryFolder folder;
+    const auto import = [&](const nlohmann::json& text) {
+        writeFile(folder.file("x.glb"),
+                  glbOf(chunk(0x4E4F534A, text.dump()) + chunk(0x004E4942, "")));
+        return importGltf(folder.file("x.glb"));
+    };
+    EXPECT_TRUE(import(json));
+    EXPECT_TRUE(import({{"asset", {{"version", "2.0"}}}}));
+    json["buffers"][0].erase("uri");
+    EXPECT_NE(import(json).error().message.find("buffers[0].uri: missing"), std::string::npos);
+}
+
+TEST(GltfKinds, VertexColoursAreFactorsUpToOne) {
+    GltfBuilder b = triangleScene();
+    b.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
+        b.vec3({{4, 0.5f, -1}, {1, 1, 1}, {0, 0, 0}});
+    const Result<ImportedScene> scene = b.import();
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->assets->meshes[0].colors[0], glm::vec4(1, 0.5f, 0, 1));
+    EXPECT_TRUE(reports(*scene, "1 vertex colors out of range"));
+}
+
+/// Primitives of one vertex buffer keep the vertices that each of them uses.
+TEST(GltfKinds, PrimitivesMayShareAVertexBuffer) {
+    constexpr std::size_t kVertices = 30000, kPrimitives = 500;
+    GltfBuilder b;
+    std::vector<glm::vec3> positions;
+    for (std::size_t i = 0; i < kVertices; ++i)
+        positions.emplace_back(float(i), float(i % 2), 0);
+    const int position = b.vec3(positions);
+    for (std::size_t k = 0; k < kPrimitives; ++k) {
+        const auto first = std::uint16_t(50 * k);
+        b.mesh(
+            {{"attributes", {{"POSITION", position}}},
+             {"indices", b.indices({first, std::uint16_t(first + 1), std::uint16_t(first + 2)})}});
+    }
+    const TemporaryFolder folder;
+    writeFile(folder.file("x.glb"), b.glb());
+    ImportOptions options;
+    options.memory.maxBytes = std::uint64_t(20) << 20;
+    const Result<ImportedScene> scene = importGltf(folder.file("x.glb"), {}, options);
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->assets->meshes.size(), kPrimitives);
+    for (const Mesh& mesh : scene->assets->meshes)
+        EXPECT_EQ(mesh.positions.size(), 3U);
+    EXPECT_EQ(scene->assets->meshes[7].positions[2], glm::vec3(352, 0, 0));
+}
+
+TEST(GltfKinds, MorphTargetsAreAppliedAtTheirDefaultWeights) {
+    GltfBuilder b = triangleScene();
+    b.json["meshes"][0]["primitives"][0]["targets"] = {
+        {{"POSITION", b.vec3({{0, 0, 2}, {0, 0, 2}, {0, 0, 2}})}},
+        {{"POSITION", b.vec3({{0, 0, 4}, {0, 0, 0}, {0, 0, 0}})}}};
+    b.json["meshes"][0]["weights"] = {0.5, 0};
+    b.json["nodes"].push_back({{"mesh", 0}, {"weights", {0, 0.25}}});
+    b.json["scenes"][0]["nodes"].push_back(1);
+    const Result<ImportedScene> scene = b.import();
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Scene flat = flatten(scene->document, scene->assets);
+    ASSERT_EQ(flat.instances.size(), 2U);
+    EXPECT_EQ(flat.meshOf(flat.instances[0]).positions[1], glm::vec3(1, 0, 1));
+    EXPECT_EQ(flat.meshOf(flat.instances[1]).positions[0], glm::vec3(0, 0, 1));
+    EXPECT_EQ(flat.meshOf(flat.instances[1]).positions[1], glm::vec3(1, 0, 0));
+}
+
+TEST(GltfKinds, NodesMayBeHidden) {
+    GltfBuilder b = triangleScene();
+    const nlohmann::json hidden = {{"KHR_node_visibility", {{"visible", false}}}},
+                         light = {{"KHR_lights_punctual", {{"light", 0}}}};
+    b.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    b.json["nodes"] = {{{"mesh", 0}},
+                       {{"children", {2}}, {"extensions", hidden}},
+                       {{"mesh", 0}, {"extensions", light}},
+                       {{"extensions", light}}};
+    b.json["scenes"][0]["nodes"] = {0, 1, 3};
+    const Result<ImportedScene> scene = b.import();
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Scene flat = flatten(scene->document, scene->assets);
+    EXPECT_EQ(flat.instances.size(), 1U);
+    EXPECT_EQ(std::ranges::count_if(flat.lights, &Light::enabled), 1);
+}
+
+/// A scale of 0 along one axis flattens, whatever stands below the node.
+TEST(GltfKinds, AScaleOfZeroAlongOneAxisFlattens) {
+    GltfBuilder b;
+    b.mesh({{"attributes",
+             {{"POSITION", b.vec3({{0, 5, 0}, {0, 3, 1}, {1, -2, 0}})},
+              {"NORMAL", b.vec3({{0, 1, 0}, {0, 1, 0}, {0, 1, 0}})}}}});
+    b.json["nodes"][0]["scale"] = {2, 0, 1};
+    b.json["nodes"].push_back({{"scale", {1, 0, 1}}, {"children", {2}}});
+    b.json["nodes"].push_back({{"mesh", 0}});
+    b.json["nodes"].push_back({{"mesh", 0}, {"scale", {0, 0, 1}}});
+    b.json["nodes"].push_back(
+        {{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}});
+    b.json["scenes"][0]["nodes"] = {0, 1, 3, 4};
+    const Result<ImportedScene> scene = b.import();
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Scene flat = flatten(scene->document, scene->assets);
+    ASSERT_EQ(flat.instances.size(), 3U); // all but the one that is a line
+    for (const Instance& i : flat.instances) {
+        const glm::vec3 corner(i.toWorld * glm::vec4(1, -2, 0, 1));
+        EXPECT_NEAR(corner.y, 0, 1e-5f);
+        EXPECT_GE(corner.x, 1);
+        const glm::vec3 n = glm::normalize(i.normalToWorld * glm::vec3(0, 1, 0));
+        EXPECT_NEAR(n.y, 1, 1e-6f);
+    }
+}
+
+TEST(GltfKinds, SpecularGlossinessBecomesMetalAndRoughness) {
+    const auto imported = [](const nlohmann::json& extension) {
+        GltfBuilder b = triangleScene();
+        b.json["meshes"][0]["primitives"][0]["material"] = 0;
+        b.json["materials"] = {
+            {{"extensions", {{"KHR_materials_pbrSpecularGlossiness", extension}}}}};
+        b.json["extensionsRequired"] = {"KHR_materials_pbrSpecularGlossiness"};
+        const Result<ImportedScene> scene = b.import();
+        EXPECT_TRUE(scene) << scene.error().message;
+        return materialOf(*scene);
+    };
+    const Material paint = imported({{"diffuseFactor", {0.5, 0.25, 0.125, 1}},
+                                     {"specularFactor", {0.04, 0.04, 0.04}},
+                                     {"glossinessFactor", 0.25}});
+    EXPECT_EQ(glm::vec3(paint.baseColor), glm::vec3(0.5f, 0.25f, 0.125f));
+    EXPECT_EQ(paint.metallic, 0);
+    EXPECT_EQ(paint.roughness, 0.75f);
+    const Material gold =
+        imported({{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1, 0.75, 0.25}}});
+    EXPECT_EQ(glm::vec3(gold.baseColor), glm::vec3(1, 0.75f, 0.25f));
+    EXPECT_EQ(gold.metallic, 1);
+    EXPECT_EQ(gold.roughness, 0);
+}
+
+TEST(GltfKinds, TexturesMayReadAnySetOfCoordinates) {
+    GltfBuilder b = triangleScene();
+    nlohmann::json& primitive = b.json["meshes"][0]["primitives"][0];
+    for (int set = 0; set < 4; ++set) {
+        std::vector<glm::vec2> uv(3, glm::vec2(float(set), 0.5f));
+        primitive["attributes"]["TEXCOORD_" + std::to_string(set)] =
+            b.accessor(b.view(uv), "VEC2", GltfBuilder::kFloat, 3);
+    }
+    primitive["material"] = 0;
+    b.json["images"] = {{{"uri", "missing.png"}}};
+    b.json["textures"] = {{{"source", 0}}};
+    b.json["materials"] = {
+        {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 3}}}}}}};
+    const Result<ImportedScene> scene = b.import();
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Mesh& mesh = scene->assets->meshes[0];
+    EXPECT_EQ(materialOf(*scene).baseColorTexture.texCoord, 3U);
+    EXPECT_EQ(mesh.uv(3).at(0), glm::vec2(3, 0.5f));
+    EXPECT_TRUE(mesh.uv(2).empty()); // which no texture reads
+    EXPECT_EQ(mesh.uv(1).at(0), glm::vec2(1, 0.5f));
+}
+
+} // namespace
+} // namespace limn::gltf_kinds_test
