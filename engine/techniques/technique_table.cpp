@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
 
@@ -45,7 +46,9 @@ const Technique& precomputingTechnique(const TechniqueChoice& choice) {
 Result<std::shared_ptr<const Precomputed>> readPrecomputed(const std::string& path,
                                                            const MemoryBudget& memory) {
     std::array<char, 8> mark{};
-    std::ifstream(path, std::ios::binary).read(mark.data(), mark.size());
+    std::error_code error;
+    if (std::filesystem::is_regular_file(path, error)) // a pipe would make it wait
+        std::ifstream(path, std::ios::binary).read(mark.data(), mark.size());
     const auto reads = [&](const Technique* t) {
         return t->precomputation &&
                std::ranges::equal(mark, std::string_view(t->precomputation->fileMark));

@@ -4,9 +4,11 @@
 
 #include "tests/scene/small_png.h"
 
+#include <array>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <turbojpeg.h>
 
 namespace limn::decode_image_test {
 namespace {
@@ -52,6 +54,28 @@ TEST(DecodeImage, RefusesSizesBeforeItAllocates) {
     EXPECT_EQ(problem(png), "is too large");
     resize(0x3f, 0x3f); // 16 k x 16 k, which 67 bytes cannot hold
     EXPECT_EQ(problem(png), "is damaged");
+}
+
+/// Four inks, as Adobe's programs store them: what each leaves of the paper.
+TEST(DecodeImage, InksBecomeTheColourThatTheyLeave) {
+    std::vector<std::uint8_t> inks;
+    for (int i = 0; i < 64; ++i)
+        inks.insert(inks.end(), {200, 40, 90, std::uint8_t(i < 32 ? 255 : 128)});
+    const tjhandle jpeg = tjInitCompress();
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+    ASSERT_EQ(tjCompress2(jpeg, inks.data(), 8, 0, 8, TJPF_CMYK, &bytes, &size, TJSAMP_444, 100, 0),
+              0);
+    const Result<Image> image = decodeImage({bytes, size});
+    tjFree(bytes);
+    tjDestroy(jpeg);
+    ASSERT_TRUE(image) << image.error().message;
+    const auto expectNear = [&](std::size_t texel, std::array<int, 4> expected) {
+        for (std::size_t c = 0; c < 4; ++c)
+            EXPECT_NEAR(image->rgba[4 * texel + c], expected[c], 3) << texel << ' ' << c;
+    };
+    expectNear(0, {200, 40, 90, 255});
+    expectNear(63, {100, 20, 45, 255});
 }
 
 TEST(DecodeImage, DamagedOnesAreRefused) {

@@ -4,10 +4,13 @@
 #include "engine/field/sample_field.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/lightmap/texel_points.h"
+#include "tests/core/temporary_folder.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 #include "tests/trace/simple_scene.h"
 
 #include <gtest/gtest.h>
+
+#include <sys/stat.h>
 
 #include <cmath>
 #include <numbers>
@@ -251,6 +254,16 @@ TEST(Ambient, IsPiTimesTheMeanOfTheSkyOnEverySurface) {
     lit.update();
     for (const glm::vec3 e : lit.irradiance())
         EXPECT_EQ(e, glm::vec3(0)) << "values are kept to their range";
+}
+
+/// A pipe would make a reader wait for ever.
+TEST(Techniques, APipeIsNotReadAsAFile) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(mkfifo(folder.file("pipe.limnbake").c_str(), 0600), 0);
+    const auto read = readPrecomputed(folder.file("pipe.limnbake"));
+    ASSERT_FALSE(read);
+    EXPECT_NE(read.error().message.find("not a regular file"), std::string::npos)
+        << read.error().message;
 }
 
 } // namespace
