@@ -75,7 +75,16 @@ void addLightOptions(Command& command, SceneOptions& options) {
 }
 
 void addTimeOption(Command& command, SceneOptions& options) {
-    command.option("--time", options.seconds, "Time at which animated textures are shown [s]")
+    command
+        .numberOption(
+            "--time",
+            [&options](double seconds) {
+                options.seconds = seconds;
+                options.import.seconds = seconds;
+            },
+            "Time at which animated textures, nodes, skins and lights are shown [s]; default: 0 "
+            "for "
+            "textures, and at rest for the others")
         .within(-1e6, 1e6);
 }
 

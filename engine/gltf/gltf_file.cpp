@@ -5,6 +5,9 @@
 #include "engine/core/read_file.h"
 #include "engine/gltf/data_uri.h"
 #include "engine/gltf/gltf_chunks.h"
+#include "engine/gltf/gltf_draco.h"
+#include "engine/gltf/gltf_extensions.h"
+#include "engine/gltf/gltf_meshopt.h"
 #include "engine/gltf/gltf_plain.h"
 #include "engine/gltf/gltf_schema.h"
 #include "engine/gltf/gltf_size.h"
@@ -22,19 +25,6 @@
 namespace limn {
 
 namespace fs = std::filesystem;
-
-/// Required extensions that are supported.
-static constexpr std::array<std::string_view, 10> kKnownExtensions = {
-    "EXT_mesh_gpu_instancing",
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_transmission",
-    "KHR_materials_volume",
-    "KHR_mesh_quantization",
-    "KHR_node_visibility",
-    "KHR_texture_transform"};
 
 /// tinygltf descends recursively into extras.
 static constexpr int kMaxJsonDepth = 128;
@@ -157,20 +147,12 @@ static bool tooDeep(std::string_view text) {
 }
 
 static Result<void> checkExtensions(const nlohmann::json& json) {
-    for (const nlohmann::json& name : json.value("extensionsRequired", nlohmann::json::array()))
-        if (std::ranges::find(kKnownExtensions, name.get<std::string>()) == kKnownExtensions.end())
+    for (const nlohmann::json& name : json.value("extensionsRequired", nlohmann::json::array())) {
+        const GltfExtension* known = findGltfExtension(name.get<std::string>());
+        if (!known || !known->isRead)
             return fail(
                 fmt::format("extensionsRequired: {} is not supported", name.get<std::string>()));
-    // Compressed geometry without the fallback that a non-required extension must have.
-    constexpr const char* kDraco = "KHR_draco_mesh_compression";
-    const nlohmann::json& accessors = json.value("accessors", nlohmann::json::array());
-    const nlohmann::json meshes = json.value("meshes", nlohmann::json::array());
-    for (std::size_t m = 0; m < meshes.size(); ++m)
-        for (const nlohmann::json& primitive : meshes[m]["primitives"])
-            if (primitive.value("extensions", nlohmann::json::object()).contains(kDraco))
-                for (const auto& [name, index] : primitive["attributes"].items())
-                    if (!accessors[index.get<std::size_t>()].contains("bufferView"))
-                        return fail(fmt::format("meshes[{}]: {} is not supported", m, kDraco));
+    }
     return {};
 }
 
@@ -252,6 +234,10 @@ Result<GltfFile> readGltfFile(const std::string& path, FileReach reach,
     file.hash = hashBytes(main->data(), main->size());
     for (const tinygltf::Buffer& buffer : file.model.buffers)
         file.hash = hashVector(buffer.data, file.hash);
+    if (const Result<void> unpacked = unpackMeshopt(file.model, memory); !unpacked)
+        return tl::make_unexpected(unpacked.error());
+    if (const Result<void> unpacked = unpackDraco(file.model, memory); !unpacked)
+        return tl::make_unexpected(unpacked.error());
     return file;
 }
 

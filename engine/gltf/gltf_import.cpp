@@ -2,6 +2,7 @@
 #include "engine/gltf/gltf_import.h"
 
 #include "engine/core/parallel.h"
+#include "engine/gltf/gltf_extensions.h"
 #include "engine/gltf/gltf_file.h"
 #include "engine/gltf/gltf_image.h"
 #include "engine/gltf/gltf_material.h"
@@ -12,29 +13,15 @@
 #include "engine/scene/surface/material_textures.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <new>
 #include <optional>
 #include <span>
-#include <string_view>
+#include <tuple>
 
 #include <fmt/format.h>
 
 namespace limn {
-
-/// Extensions that are supported; any other one is reported as ignored.
-static constexpr std::array<std::string_view, 10> kUsedExtensions = {
-    "EXT_mesh_gpu_instancing",
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_transmission",
-    "KHR_materials_volume",
-    "KHR_mesh_quantization",
-    "KHR_node_visibility",
-    "KHR_texture_transform"};
 
 namespace {
 
@@ -43,6 +30,7 @@ struct PrimitiveWork {
     std::size_t mesh = 0, primitive = 0;
     std::size_t part = 0; ///< in MeshesOfGltf::parts
     std::span<const double> weights;
+    const SkinPose* skin = nullptr;
     Mesh result;
     GltfRepairs repairs;
     std::string problem;
@@ -83,8 +71,8 @@ struct MaterialsWithout {
 };
 
 PrimitiveUse useOf(const std::vector<Material>& materials, const tinygltf::Primitive& primitive,
-                   std::span<const double> weights) {
-    PrimitiveUse use{.uvSets = {}, .normalMapSet = {}, .morphWeights = weights};
+                   std::span<const double> weights, const SkinPose* skin) {
+    PrimitiveUse use{.uvSets = {}, .normalMapSet = {}, .morphWeights = weights, .skin = skin};
     if (primitive.material < 0 || std::size_t(primitive.material) >= materials.size())
         return use;
     Material material = materials[std::size_t(primitive.material)];
@@ -96,30 +84,54 @@ PrimitiveUse useOf(const std::vector<Material>& materials, const tinygltf::Primi
     return use;
 }
 
-/// Mesh parts for each glTF mesh, and for the morph weights of nodes that have others.
-MeshesOfGltf partsOf(const tinygltf::Model& model, std::vector<PrimitiveWork>& works) {
+/// What nodes make of a glTF mesh: morph weights and a skin.
+struct MeshUse {
+    const std::vector<double>* weights;
+    int skin = -1;
+
+    auto key(std::size_t mesh) const { return std::tuple(mesh, *weights, skin); }
+};
+
+MeshUse meshUse(const tinygltf::Model& model, const tinygltf::Node& node) {
+    const bool isSkinned = node.skin >= 0 && std::size_t(node.skin) < model.skins.size();
+    return {node.weights.empty() ? &model.meshes[std::size_t(node.mesh)].weights : &node.weights,
+            isSkinned ? node.skin : -1};
+}
+
+/// Mesh parts for each glTF mesh as the first node uses it, then for nodes that use it in other
+/// ways. Adds what is to be read of each to `works`.
+MeshesOfGltf partsOf(const tinygltf::Model& model, const std::vector<SkinPose>& skins,
+                     std::vector<PrimitiveWork>& works) {
     MeshesOfGltf meshes;
-    std::map<std::pair<std::size_t, std::vector<double>>, std::uint32_t> known;
-    const auto partOf = [&](std::size_t mesh, const std::vector<double>& weights) {
+    std::map<std::tuple<std::size_t, std::vector<double>, int>, std::uint32_t> known;
+    const auto partOf = [&](std::size_t mesh, const MeshUse& use, const SkinPose* skin) {
         const auto [entry, isNew] =
-            known.try_emplace({mesh, weights}, std::uint32_t(meshes.parts.size()));
+            known.try_emplace(use.key(mesh), std::uint32_t(meshes.parts.size()));
         if (isNew) {
             for (std::size_t p = 0; p < model.meshes[mesh].primitives.size(); ++p)
-                works.push_back({mesh, p, meshes.parts.size(), weights, {}, {}, {}});
+                works.push_back({mesh, p, meshes.parts.size(), *use.weights, skin, {}, {}, {}});
             meshes.parts.emplace_back();
         }
         return entry->second;
     };
+    const auto hasMesh = [&](std::size_t n) {
+        return model.nodes[n].mesh >= 0 && std::size_t(model.nodes[n].mesh) < model.meshes.size();
+    };
+    const auto partOfNode = [&](std::size_t n) {
+        const MeshUse use = meshUse(model, model.nodes[n]);
+        return partOf(std::size_t(model.nodes[n].mesh), use, use.skin >= 0 ? &skins[n] : nullptr);
+    };
+    std::vector<std::optional<std::size_t>> firstNode(model.meshes.size());
+    for (std::size_t n = model.nodes.size(); n-- > 0;)
+        if (hasMesh(n))
+            firstNode[std::size_t(model.nodes[n].mesh)] = n;
     for (std::size_t m = 0; m < model.meshes.size(); ++m)
-        partOf(m, model.meshes[m].weights);
-    for (const tinygltf::Node& node : model.nodes) {
-        const bool hasMesh = node.mesh >= 0 && std::size_t(node.mesh) < model.meshes.size();
-        const auto mesh = hasMesh ? std::size_t(node.mesh) : 0;
-        meshes.partsOfNode.push_back(
-            !hasMesh
-                ? 0
-                : partOf(mesh, node.weights.empty() ? model.meshes[mesh].weights : node.weights));
-    }
+        if (firstNode[m])
+            partOfNode(*firstNode[m]);
+        else
+            partOf(m, {&model.meshes[m].weights, -1}, nullptr);
+    for (std::size_t n = 0; n < model.nodes.size(); ++n)
+        meshes.partsOfNode.push_back(hasMesh(n) ? partOfNode(n) : 0);
     return meshes;
 }
 
@@ -129,8 +141,8 @@ static void convert(const tinygltf::Model& model, const std::vector<Material>& m
                     PrimitiveWork& work) {
     const tinygltf::Mesh& mesh = model.meshes[work.mesh];
     const tinygltf::Primitive& primitive = mesh.primitives[work.primitive];
-    Result<Mesh> read =
-        readPrimitive(model, primitive, useOf(materials, primitive, work.weights), work.repairs);
+    Result<Mesh> read = readPrimitive(
+        model, primitive, useOf(materials, primitive, work.weights, work.skin), work.repairs);
     if (!read) {
         work.problem = fmt::format("meshes[{}].primitives[{}].{}", work.mesh, work.primitive,
                                    read.error().message);
@@ -144,10 +156,11 @@ static void convert(const tinygltf::Model& model, const std::vector<Material>& m
 
 /// Fills `out` with the drawable primitives and returns which nodes have which.
 static Result<MeshesOfGltf> readMeshes(const tinygltf::Model& model,
+                                       const std::vector<SkinPose>& skins,
                                        std::vector<Material>& materials, const Progress& progress,
                                        std::vector<Mesh>& out, GltfRepairs& repairs) {
     std::vector<PrimitiveWork> works;
-    MeshesOfGltf meshes = partsOf(model, works);
+    MeshesOfGltf meshes = partsOf(model, skins, works);
     const bool done = parallelRanges(works.size(), 1, progress, "meshes",
                                      [&](std::size_t begin, std::size_t end) {
                                          for (std::size_t i = begin; i < end; ++i)
@@ -182,9 +195,10 @@ static Result<MeshesOfGltf> readMeshes(const tinygltf::Model& model,
 
 static void reportUnused(const tinygltf::Model& model, GltfRepairs& repairs) {
     for (const std::string& name : model.extensionsUsed)
-        if (std::ranges::find(kUsedExtensions, name) == kUsedExtensions.end())
-            repairs.sentences.push_back(fmt::format("extension {} is ignored", name));
-    repairs.add("animations left out", model.animations.size());
+        if (const GltfExtension* known = findGltfExtension(name); !known || !known->isRead)
+            repairs.sentences.push_back(fmt::format("extension {} is ignored{}{}", name,
+                                                    known && !known->leftOut.empty() ? ": " : "",
+                                                    known ? known->leftOut : ""));
 }
 
 /// Surfaces whose emissive texture is missing do not shine as if it were white.
@@ -203,16 +217,23 @@ static Result<ImportedScene> import(const std::string& path, const Progress& pro
         return tl::make_unexpected(file.error());
     if (const Result<void> fits = checkGltfSize(*file, options.memory); !fits)
         return tl::make_unexpected(fits.error());
-    const tinygltf::Model& model = file->model;
     GltfRepairs repairs;
+    if (!options.seconds)
+        repairs.add("animations left out, which --time shows", file->model.animations.size());
+    else if (const Result<void> posed = poseAt(file->model, *options.seconds, repairs); !posed)
+        return tl::make_unexpected(posed.error());
+    const tinygltf::Model& model = file->model;
     reportUnused(model, repairs);
+    const Result<std::vector<SkinPose>> skins = skinPoses(model);
+    if (!skins)
+        return tl::make_unexpected(skins.error());
     std::vector<Material> materials;
     for (std::size_t i = 0; i < model.materials.size(); ++i)
         materials.push_back(readMaterial(model, i, repairs));
 
     auto assets = std::make_shared<Assets>();
     const Result<MeshesOfGltf> meshes =
-        readMeshes(model, materials, progress, assets->meshes, repairs);
+        readMeshes(model, *skins, materials, progress, assets->meshes, repairs);
     if (!meshes)
         return tl::make_unexpected(meshes.error());
 
@@ -222,7 +243,7 @@ static Result<ImportedScene> import(const std::string& path, const Progress& pro
     for (const Material& material : materials) // first: Mesh::material is their order of id
         addObject(scene.document, material);
     if (const Result<void> added =
-            addNodes(scene.document, model, *meshes, assets->meshes, repairs);
+            addNodes(scene.document, model, *meshes, *skins, assets->meshes, repairs);
         !added)
         return tl::make_unexpected(added.error());
     addObject(scene.document, Sky{});

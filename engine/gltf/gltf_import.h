@@ -8,6 +8,7 @@
 #include "engine/scene/scene.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct ImportedScene {
 struct ImportOptions {
     FileReach reach = FileReach::Folder; ///< of the files that a glTF names
     MemoryBudget memory;
+    /// Time at which animated nodes, lights and morph weights are read [s]; std::nullopt: as the
+    /// file has them at rest.
+    std::optional<double> seconds;
 };
 
 /// Reads a .gltf or .glb (glTF 2.0). Fails, with file and field, on what cannot be repaired:

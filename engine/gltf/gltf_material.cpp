@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gltf/gltf_material.h"
 
+#include "engine/gltf/gltf_value.h"
 #include "engine/scene/light/light.h"
 #include "engine/scene/surface/material_textures.h"
 
@@ -12,10 +13,6 @@
 #include <fmt/format.h>
 
 namespace limn {
-
-static const tinygltf::Value* member(const tinygltf::Value& object, const char* key) {
-    return object.IsObject() && object.Has(key) ? &object.Get(key) : nullptr;
-}
 
 static const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions,
                                         const char* name) {
@@ -60,6 +57,15 @@ static void applyTransform(TextureRef& texture, const tinygltf::Value& transform
     texture.texCoord = set >= 0 && set < float(kMaxUvSets) ? std::uint32_t(set) : kMaxUvSets;
 }
 
+/// Index of a texture's image, which EXT_texture_webp may name; the other one is for programs that
+/// cannot read it. -1: it has none.
+static std::int32_t imageOf(const tinygltf::Texture& source) {
+    const tinygltf::Value* webp = extension(source.extensions, "EXT_texture_webp");
+    const std::optional<std::size_t> image =
+        webp ? wholeNumber(member(*webp, "source")) : std::nullopt;
+    return image ? std::int32_t(*image) : source.source;
+}
+
 template <class Info>
 static TextureRef readTexture(const tinygltf::Model& model, const Info& info,
                               GltfRepairs& repairs) {
@@ -67,11 +73,11 @@ static TextureRef readTexture(const tinygltf::Model& model, const Info& info,
     if (info.index < 0 || std::size_t(info.index) >= model.textures.size())
         return texture;
     const tinygltf::Texture& source = model.textures[std::size_t(info.index)];
-    if (source.source < 0 || std::size_t(source.source) >= model.images.size()) {
+    texture.image = imageOf(source);
+    if (texture.image < 0 || std::size_t(texture.image) >= model.images.size()) {
         repairs.add("textures without a readable image left out");
-        return texture;
+        return {};
     }
-    texture.image = source.source;
     texture.texCoord = info.texCoord < 0 ? 0 : std::uint32_t(info.texCoord);
     if (source.sampler >= 0 && std::size_t(source.sampler) < model.samplers.size()) {
         const tinygltf::Sampler& sampler = model.samplers[std::size_t(source.sampler)];

@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 
 namespace limn {
 
@@ -200,6 +202,60 @@ static Result<void> addTargets(const AttributeReader& reader, const tinygltf::Pr
     return {};
 }
 
+/// Adds the weighted matrices of one set of joints to those of the vertices, and their weights.
+static Result<void> addJoints(const AttributeReader& reader, const tinygltf::Primitive& primitive,
+                              std::uint32_t set, const SkinPose& skin,
+                              std::vector<glm::dmat4>& matrices, std::vector<double>& weights) {
+    const Result<AccessorValues> joints =
+        reader.read(primitive.attributes, {fmt::format("JOINTS_{}", set), 4, 4});
+    const Result<AccessorValues> shares =
+        reader.read(primitive.attributes, {fmt::format("WEIGHTS_{}", set), 4, 4});
+    for (const auto* each : {&joints, &shares})
+        if (!*each)
+            return tl::make_unexpected(each->error());
+    for (std::size_t i = 0; i < std::min(joints->count(), shares->count()); ++i)
+        for (std::size_t k = 0; k < 4; ++k) {
+            const double weight = double(shares->row(i)[k]);
+            const float joint = joints->row(i)[k];
+            if (!(weight > 0))
+                continue;
+            if (!(joint >= 0 && joint < float(skin.joints.size())))
+                return fail(fmt::format("JOINTS_{}: element {} is {}, there are {} joints", set, i,
+                                        joint, skin.joints.size()));
+            matrices[i] += weight * skin.joints[std::size_t(joint)];
+            weights[i] += weight;
+        }
+    return {};
+}
+
+/// Moves vertices to where their joints have them.
+static Result<void> applySkin(const AttributeReader& reader, const tinygltf::Primitive& primitive,
+                              const SkinPose& skin, Mesh& mesh) {
+    if (skin.joints.empty())
+        return {};
+    std::vector<glm::dmat4> matrices(mesh.positions.size(), glm::dmat4(0));
+    std::vector<double> weights(mesh.positions.size(), 0);
+    for (std::uint32_t set = 0; primitive.attributes.contains(fmt::format("JOINTS_{}", set)); ++set)
+        if (const Result<void> added = addJoints(reader, primitive, set, skin, matrices, weights);
+            !added)
+            return added;
+    for (std::size_t i = 0; i < matrices.size(); ++i) {
+        const glm::dmat4 m = weights[i] > 0 ? matrices[i] / weights[i] : skin.joints[0];
+        mesh.positions[i] = glm::vec3(m * glm::dvec4(glm::dvec3(mesh.positions[i]), 1));
+        const glm::dmat3 linear(m);
+        const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]),
+                                  glm::cross(linear[2], linear[0]),
+                                  glm::cross(linear[0], linear[1]));
+        // Lengths are mended afterwards.
+        if (!mesh.normals.empty())
+            mesh.normals[i] = glm::vec3(cofactor * glm::dvec3(mesh.normals[i]));
+        if (!mesh.tangents.empty())
+            mesh.tangents[i] =
+                glm::vec4(glm::vec3(linear * glm::dvec3(mesh.tangents[i])), mesh.tangents[i].w);
+    }
+    return {};
+}
+
 /// Numbers the vertices that triangles use anew, and returns those in ascending order.
 static std::vector<std::uint32_t> usedVertices(std::vector<std::uint32_t>& indices) {
     std::vector<std::uint32_t> used = indices;
@@ -257,6 +313,9 @@ Result<Mesh> readPrimitive(const tinygltf::Model& model, const tinygltf::Primiti
         return tl::make_unexpected(read.error());
     if (Result<void> added = addTargets(reader, primitive, use.morphWeights, mesh); !added)
         return tl::make_unexpected(added.error());
+    if (use.skin)
+        if (Result<void> moved = applySkin(reader, primitive, *use.skin, mesh); !moved)
+            return tl::make_unexpected(moved.error());
 
     const RemovedTriangles removed = removeBadTriangles(mesh);
     repairs.add("triangles of zero area removed", removed.zeroArea);

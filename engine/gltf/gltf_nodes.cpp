@@ -121,12 +121,6 @@ struct Visit {
     ObjectId parent = 0;
 };
 
-/// The node of a skinned mesh and the transform of its mesh in double precision.
-struct Skinned {
-    ObjectId id = 0;
-    glm::dvec3 translation{0};
-};
-
 /// State of one call of addNodes().
 struct NodeReader {
     Document& document;
@@ -288,58 +282,22 @@ static Result<void> addNode(NodeReader& reader, const Visit& visit) {
     return {};
 }
 
-/// Places a skinned mesh in its bind pose. glTF ignores the node's own transform, and at rest every
-/// joint's matrix times its inverse bind matrix is the same, so that of the first joint is used.
-static Result<Skinned> addSkinned(NodeReader& reader, int index, Placements& rounded,
-                                  Placements& precise) {
-    const tinygltf::Node& source = reader.model.nodes[std::size_t(index)];
-    const tinygltf::Skin& skin = reader.model.skins[std::size_t(source.skin)];
+/// Adds a skinned mesh, whose vertices are where its joints have them: glTF ignores the transform
+/// of its node.
+static void addSkinned(NodeReader& reader, std::size_t index, const glm::dvec3& origin,
+                       bool visible) {
+    const tinygltf::Node& source = reader.model.nodes[index];
     Node node;
     node.name = source.name.empty() ? fmt::format("Skinned {}", index) : source.name;
-    node.meshes = reader.meshes.of(std::size_t(index));
-    Skinned added;
-    if (!skin.joints.empty()) {
-        glm::mat4 bind(1);
-        if (skin.inverseBindMatrices >= 0) {
-            const Result<AccessorValues> values =
-                readNumbers(reader.model, skin.inverseBindMatrices);
-            if (!values || values->components != 16 || values->count() == 0)
-                return fail(fmt::format("skins[{}].inverseBindMatrices: {}", source.skin,
-                                        values ? "not MAT4" : values.error().message));
-            for (int i = 0; i < 16; ++i)
-                bind[i / 4][i % 4] = values->row(0)[std::size_t(i)];
-        }
-        const ObjectId joint = reader.ids[std::size_t(skin.joints[0])];
-        node.visible =
-            decompose(glm::mat4(rounded.of(joint).toWorld) * bind, node.transform, reader.repairs);
-        added.translation = glm::dvec3((precise.of(joint).toWorld * glm::dmat4(bind))[3]);
-    }
-    if (!finite(node.transform))
-        return fail(fmt::format("skins[{}]: bind pose is not finite", source.skin));
-    reader.repairs.add("skinned meshes shown in their bind pose");
-    added.id = addObject(reader.document, std::move(node));
-    return added;
-}
-
-static Result<void> addAllSkinned(NodeReader& reader, std::span<const Mesh> placed) {
-    Placements rounded(reader.document), precise(reader.document, glm::dvec3(0));
-    std::vector<Skinned> added;
-    for (const int node : reader.skinned) {
-        const Result<Skinned> one = addSkinned(reader, node, rounded, precise);
-        if (!one)
-            return tl::make_unexpected(one.error());
-        added.push_back(*one);
-    }
-    reader.document.origin = originOf(reader.document, placed);
-    if (reader.document.origin != glm::dvec3(0))
-        for (const Skinned& one : added)
-            std::get<Node>(reader.document.objects.at(one.id)).transform.translation =
-                one.translation;
-    return {};
+    node.meshes = reader.meshes.of(index);
+    node.transform.translation = origin;
+    node.visible = visible;
+    addObject(reader.document, std::move(node));
 }
 
 Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf& meshes,
-                      std::span<const Mesh> placed, GltfRepairs& repairs) {
+                      std::span<const SkinPose> skins, std::span<const Mesh> placed,
+                      GltfRepairs& repairs) {
     const Result<std::vector<int>> parents = parentsOf(model);
     if (!parents)
         return tl::make_unexpected(parents.error());
@@ -362,14 +320,19 @@ Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf
         for (auto child = children.rbegin(); child != children.rend(); ++child)
             stack.push_back({*child, reader.ids[std::size_t(visit.node)]});
     }
-    if (Result<void> added = addAllSkinned(reader, placed); !added)
-        return added;
-    Placements placements(document);
     std::vector<bool> hidden(model.nodes.size());
     for (const int node : visited) { // parents before children
         const auto n = std::size_t(node);
         hidden[n] = !isVisible(model.nodes[n]) ||
                     ((*parents)[n] >= 0 && hidden[std::size_t((*parents)[n])]);
+    }
+    for (const int node : reader.skinned)
+        addSkinned(reader, std::size_t(node), skins[std::size_t(node)].origin,
+                   !hidden[std::size_t(node)]);
+    document.origin = originOf(document, placed);
+    Placements placements(document);
+    for (const int node : visited) {
+        const auto n = std::size_t(node);
         addLightAndCamera(document, model, n, glm::mat4(placements.of(reader.ids[n]).toWorld),
                           !hidden[n], repairs);
     }

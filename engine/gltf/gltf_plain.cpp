@@ -25,6 +25,15 @@ static void writeIntegers(Json& value) {
         value = std::int64_t(number);
 }
 
+/// Whether a buffer without data stands for what EXT_meshopt_compression unpacks.
+static bool isFallback(const Json& buffer) {
+    const Json none = Json::object();
+    const Json& extensions = buffer.contains("extensions") ? buffer["extensions"] : none;
+    const auto found = extensions.find("EXT_meshopt_compression");
+    return !buffer.contains("uri") && found != extensions.end() && found->is_object() &&
+           found->value("fallback", Json(false)) == Json(true);
+}
+
 static std::vector<GltfSource> takeBuffers(Json& json, bool hasBinary) {
     std::vector<GltfSource> sources;
     const auto buffers = json.find("buffers");
@@ -32,7 +41,7 @@ static std::vector<GltfSource> takeBuffers(Json& json, bool hasBinary) {
         Json& buffer = (*buffers)[i];
         GltfSource source{.isBuffer = true, .index = i};
         source.uri = buffer.value("uri", "");
-        source.length = std::uint64_t(buffer.value("byteLength", 0.0));
+        source.length = isFallback(buffer) ? 0 : std::uint64_t(buffer.value("byteLength", 0.0));
         if (source.uri.empty() && source.length > 0 && !(hasBinary && i == 0))
             source.problem = "missing";
         buffer["uri"] = "buffer";
@@ -66,8 +75,36 @@ static std::vector<GltfSource> takeImages(Json& json) {
     return sources;
 }
 
+/// tinygltf passes over channels without a node, such as those of KHR_animation_pointer.
+static void giveNodes(Json& json) {
+    const auto animations = json.find("animations");
+    if (animations == json.end() || !animations->is_array())
+        return;
+    for (Json& animation : *animations) {
+        if (!animation.is_object() || !animation.contains("channels"))
+            continue;
+        for (Json& channel : animation["channels"])
+            if (channel.is_object() && channel.contains("target") &&
+                channel["target"].is_object() && channel["target"].contains("extensions") &&
+                !channel["target"].contains("node"))
+                channel["target"]["node"] = 0;
+    }
+}
+
+/// tinygltf refuses accessors of indices without a buffer view, such as those that Draco unpacks.
+static void takePackedIndices(Json& json) {
+    const auto meshes = json.find("meshes");
+    for (std::size_t m = 0; meshes != json.end() && m < meshes->size(); ++m)
+        for (Json& primitive : (*meshes)[m]["primitives"])
+            if (primitive.contains("extensions") &&
+                primitive["extensions"].contains("KHR_draco_mesh_compression"))
+                primitive.erase("indices");
+}
+
 std::vector<GltfSource> makePlain(Json& json, bool hasBinary) {
     writeIntegers(json);
+    takePackedIndices(json);
+    giveNodes(json);
     std::vector<GltfSource> sources = takeBuffers(json, hasBinary);
     for (GltfSource& image : takeImages(json))
         sources.push_back(std::move(image));

@@ -24,8 +24,9 @@ struct GltfSource {
 /// buffers, then images. Whole numbers written as 1.0 become integers, because tinygltf takes those
 /// in extensions and in some fields for missing. Every source gets a file name in place of its URI,
 /// because tinygltf decodes data of a few media types only, and loses count of images without data.
-/// Images with neither a URI nor a buffer view, or with both, get a problem. `json` has passed
-/// checkGltfSchema().
+/// Channels of animations get a node where they have none, and primitives that Draco packs lose
+/// their indices, which it holds. Images with neither a URI nor a buffer view, or with both, get a
+/// problem. `json` has passed checkGltfSchema().
 std::vector<GltfSource> makePlain(nlohmann::json& json, bool hasBinary);
 
 } // namespace limn

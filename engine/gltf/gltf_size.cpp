@@ -70,8 +70,9 @@ Part meshesOf(const tinygltf::Model& model) {
         }
         part.bytes += bytes.back();
     }
-    for (const tinygltf::Node& node : model.nodes) // with morph weights of its own
-        if (!node.weights.empty() && node.mesh >= 0 && std::size_t(node.mesh) < bytes.size())
+    for (const tinygltf::Node& node : model.nodes) // with morph weights or a skin of its own
+        if ((!node.weights.empty() || node.skin >= 0) && node.mesh >= 0 &&
+            std::size_t(node.mesh) < bytes.size())
             part.bytes += bytes[std::size_t(node.mesh)];
     return part;
 }

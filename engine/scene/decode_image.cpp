@@ -10,6 +10,7 @@
 
 #include <spng.h>
 #include <turbojpeg.h>
+#include <webp/decode.h>
 
 namespace limn {
 
@@ -24,9 +25,17 @@ constexpr std::array<std::uint8_t, 3> kJpeg = {0xff, 0xd8, 0xff};
 /// texels.
 constexpr std::uint64_t kMaxTexelsPerByte = 8 * 1032;
 
+constexpr std::array<std::uint8_t, 6> kKtx2 = {0xab, 'K', 'T', 'X', ' ', '2'};
+
 bool startsWith(Bytes bytes, Bytes signature) {
     return bytes.size() >= signature.size() &&
            std::ranges::equal(bytes.first(signature.size()), signature);
+}
+
+bool isWebp(Bytes bytes) {
+    static constexpr std::array<std::uint8_t, 4> kRiff = {'R', 'I', 'F', 'F'},
+                                                 kWebp = {'W', 'E', 'B', 'P'};
+    return bytes.size() >= 12 && startsWith(bytes, kRiff) && startsWith(bytes.subspan(8), kWebp);
 }
 
 /// One PNG in memory. Wrong checksums are accepted, and the file's colour metadata is ignored, as
@@ -119,6 +128,28 @@ private:
     std::unique_ptr<void, Free> m_jpeg;
 };
 
+/// One WebP in memory, of which only still ones are read.
+class WebpReader {
+public:
+    explicit WebpReader(Bytes bytes) : m_bytes(bytes) {}
+
+    std::optional<ImageSize> size() const {
+        WebPBitstreamFeatures features;
+        if (WebPGetFeatures(m_bytes.data(), m_bytes.size(), &features) != VP8_STATUS_OK ||
+            features.has_animation)
+            return {};
+        return ImageSize{std::uint32_t(features.width), std::uint32_t(features.height)};
+    }
+    bool read(std::vector<std::uint8_t>& rgba) {
+        const std::optional<ImageSize> texels = size();
+        return texels && WebPDecodeRGBAInto(m_bytes.data(), m_bytes.size(), rgba.data(),
+                                            rgba.size(), int(4 * texels->width));
+    }
+
+private:
+    Bytes m_bytes;
+};
+
 template <class Reader>
 Result<ImageSize> checkedSize(const Reader& reader, Bytes bytes) {
     const std::optional<ImageSize> size = reader.size();
@@ -155,7 +186,11 @@ Result<T> readBy(Bytes bytes, const Use& use) {
         return use(PngReader(bytes));
     if (startsWith(bytes, kJpeg))
         return use(JpegReader(bytes));
-    return fail("is neither PNG nor JPEG");
+    if (isWebp(bytes))
+        return use(WebpReader(bytes));
+    if (startsWith(bytes, kKtx2))
+        return fail("is KTX2, which is not supported");
+    return fail("is neither PNG, JPEG nor WebP");
 }
 
 } // namespace

@@ -17,11 +17,12 @@ struct ImageSize {
     std::uint32_t width = 0, height = 0;
 };
 
-/// What the header of a PNG or JPEG says, whatever the file is called. Fails on all else, and on
-/// sizes of zero or above kMaxTexels. Messages say what the image is or does: "is too large".
+/// What the header of a PNG, JPEG or WebP says, whatever the file is called. Fails on all else, and
+/// on sizes of zero or above kMaxTexels. Messages say what the image is or does: "is too large".
 Result<ImageSize> imageSize(std::span<const std::uint8_t> bytes);
 
-/// Decodes a PNG or JPEG to RGBA. Fails as imageSize() does, and on damaged texels.
+/// Decodes a PNG, JPEG or WebP to RGBA. Of moving WebPs, none is read. Fails as imageSize() does,
+/// and on damaged texels.
 Result<Image> decodeImage(std::span<const std::uint8_t> bytes);
 
 } // namespace limn

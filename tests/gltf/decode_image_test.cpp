@@ -40,7 +40,7 @@ TEST(DecodeImage, ReadsNothingThatGltfDoesNotHave) {
     const std::string bmp = "BM" + std::string(52, '\0');
     for (const std::string& bytes :
          {ppm, tga, bmp, std::string("GIF89a"), std::string("8BPS"), std::string("\x89PN")})
-        EXPECT_EQ(problem(bytesOf(bytes)), "is neither PNG nor JPEG") << bytes.substr(0, 4);
+        EXPECT_EQ(problem(bytesOf(bytes)), "is neither PNG, JPEG nor WebP") << bytes.substr(0, 4);
     EXPECT_EQ(problem({}), "is missing");
 }
 

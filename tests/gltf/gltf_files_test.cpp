@@ -66,11 +66,6 @@ protected:
 
 TEST_F(SceneFiles, EveryFeatureSceneImportsOrNamesWhatItRequires) {
     const std::map<std::string, std::string> refused = {
-        {"BoxDraco.gltf", "KHR_draco_mesh_compression"},
-        {"DracoSparseMesh.gltf", "KHR_draco_mesh_compression"},
-        {"DenseSphere.glb", "KHR_draco_mesh_compression"},
-        {"BoxMeshopt.gltf", "EXT_meshopt_compression"},
-        {"BoxMeshopt.glb", "EXT_meshopt_compression"},
         {"Compatibility_04.gltf", "asset.minVersion"},
         {"Compatibility_05.gltf", "FAKE_materials_quantumRendering"}};
     const std::vector<fs::path> files = gltfFilesUnder(kScenes / "features");

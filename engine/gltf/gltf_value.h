@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include <tiny_gltf.h>
+
+namespace limn {
+
+/// A member of an extension's object; null if it has none of that name.
+inline const tinygltf::Value* member(const tinygltf::Value& object, const char* key) {
+    return object.IsObject() && object.Has(key) ? &object.Get(key) : nullptr;
+}
+
+/// A non-negative integer, such as an index.
+inline std::optional<std::size_t> wholeNumber(const tinygltf::Value* value) {
+    if (!value || !value->IsInt() || value->GetNumberAsInt() < 0)
+        return {};
+    return std::size_t(value->GetNumberAsInt());
+}
+
+} // namespace limn
