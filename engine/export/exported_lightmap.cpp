@@ -181,6 +181,8 @@ static Result<WrittenLightmap> writeOnce(const ExportScene& scene, const ExportS
 
 Result<WrittenLightmap> writtenLightmap(const ExportScene& scene, const ExportSettings& wanted,
                                         const std::string& stem, const Progress& progress) {
+    if (const Result<void> fits = checkEncoding(wanted, wanted.bands * wanted.bands); !fits)
+        return tl::make_unexpected(fits.error()); // before minutes of work
     ExportSettings settings = wanted;
     for (double before = std::numeric_limits<double>::infinity();;) {
         Result<WrittenLightmap> written = writeOnce(scene, settings, stem, progress);

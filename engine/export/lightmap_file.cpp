@@ -56,21 +56,28 @@ TextureEncoding encodingFor(const ExportSettings& settings, std::string_view nam
     return asked || !name.ends_with(".ktx2") ? settings.encoding : TextureEncoding::Ktx2Half;
 }
 
+Result<void> checkEncoding(const ExportSettings& settings, std::uint32_t layers) {
+    if (layers > 1 && settings.encoding == TextureEncoding::Exr)
+        return fail("encoding: EXR holds one layer; use KTX2 for harmonics");
+    if (layers > 1 && settings.encoding == TextureEncoding::Ktx2Bc6h &&
+        settings.layers == ShLayers::Volume)
+        return fail("layers: no consumer reads 3D textures of blocks; use an array");
+    return {};
+}
+
 Result<ExportFile> lightmapFile(const LightmapImage& image, const ExportSettings& settings,
                                 const std::string& stem) {
     const std::string name = stem + textureExtension(settings.encoding);
+    if (const Result<void> fits = checkEncoding(settings, image.layers); !fits)
+        return tl::make_unexpected(fits.error());
     Result<std::string> bytes;
     if (settings.encoding == TextureEncoding::Exr) {
-        if (image.layers > 1)
-            return fail("encoding: EXR holds one layer; use KTX2 for harmonics");
         bytes = encodeExr({image.width, image.height, image.rgb});
     } else {
         if (const Result<void> ok = checkRange(image, settings.encoding); !ok)
             return tl::make_unexpected(ok.error());
         const std::uint32_t layers = image.layers > 1 ? image.layers : 0;
         const bool volume = settings.layers == ShLayers::Volume;
-        if (volume && layers > 0 && settings.encoding == TextureEncoding::Ktx2Bc6h)
-            return fail("layers: no consumer reads 3D textures of blocks; use an array");
         bytes = encodeKtx2({.format = ktx2FormatOf(settings.encoding, layers > 0),
                             .width = image.width,
                             .height = image.height,

@@ -11,6 +11,9 @@
 
 namespace limn {
 
+/// Fails where an encoding cannot hold so many layers.
+Result<void> checkEncoding(const ExportSettings& settings, std::uint32_t layers);
+
 /// A lightmap as settings.encoding, compress and layers ask for; `stem` and the encoding's
 /// extension are the file's name. Harmonics are encoded as an array or a 3D texture, whatever their
 /// number. Fails where the encoding cannot hold the light: harmonics in EXR, negative values with a

@@ -9,7 +9,7 @@
 #include "tests/fuzz/small_bake.h"
 #include "tests/fuzz/small_room.h"
 #include "tests/fuzz/target.h"
-#include "tests/gltf/gltf_builder.h"
+#include "tests/gltf/packed_scenes.h"
 #include "tests/scene/small_png.h"
 
 #include <filesystem>
@@ -18,6 +18,8 @@
 
 #include <stb/stb_image_write.h>
 #include <tinyexr.h>
+#include <turbojpeg.h>
+#include <webp/encode.h>
 
 using namespace limn;
 
@@ -81,6 +83,21 @@ void writeImages(const TemporaryFolder&, const auto& write) {
             write("channels" + std::to_string(channels) + "_" + std::to_string(quality) + ".jpg",
                   jpeg);
         }
+    unsigned char* bytes = nullptr;
+    unsigned long jpegSize = 0;
+    const tjhandle encoder = tjInitCompress();
+    tjCompress2(encoder, texels.data(), 16, 0, 12, TJPF_CMYK, &bytes, &jpegSize, TJSAMP_444, 90, 0);
+    write("inks.jpg", std::string(reinterpret_cast<const char*>(bytes), jpegSize));
+    tjFree(bytes);
+    tjDestroy(encoder);
+    for (const bool isLossless : {false, true}) {
+        const std::size_t size = isLossless
+                                     ? WebPEncodeLosslessRGBA(texels.data(), 16, 12, 64, &bytes)
+                                     : WebPEncodeRGBA(texels.data(), 16, 12, 64, 75, &bytes);
+        write(isLossless ? "lossless.webp" : "lossy.webp",
+              std::string(reinterpret_cast<const char*>(bytes), size));
+        WebPFree(bytes);
+    }
 }
 
 std::string exr(int compression, int type) {
@@ -229,6 +246,15 @@ void writeScenes(const TemporaryFolder&, const auto& write) {
     write("triangle.glb", triangleScene().glb());
     write("plain.glb", plainScene());
     write("rich.glb", richScene().glb());
+    const Grid grid;
+    write("meshopt.glb", meshoptScene(grid).glb());
+    write("draco.glb", dracoScene(dracoBytes(grid, 5), grid.indices.size()).glb());
+    write("draco_sequential.glb", dracoScene(dracoBytes(grid, 10), grid.indices.size()).glb());
+    GltfBuilder moving = bentStrip();
+    const int times = scalars(moving, {0, 1});
+    animate(moving, {{"node", 2}, {"path", "translation"}}, times,
+            moving.vec3({{1, 0, 0}, {1, 1, 0}}));
+    write("moving.glb", moving.glb());
     // As text; the buffer is zeros: degenerate triangles to be mended.
     nlohmann::json text = triangleScene().json;
     text["buffers"] = {{{"byteLength", 36},

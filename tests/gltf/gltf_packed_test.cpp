@@ -3,37 +3,18 @@
 #include "engine/gltf/gltf_import.h"
 #include "engine/scene/decode_image.h"
 #include "tests/core/source_path.h"
-#include "tests/gltf/gltf_builder.h"
+#include "tests/gltf/packed_scenes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <random>
 
-#include <draco/compression/encode.h>
-#include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <glm/geometric.hpp>
-#include <meshoptimizer.h>
 #include <webp/encode.h>
 
 namespace limn::gltf_packed_test {
 namespace {
-
-/// A wavy strip: positions of 8 x 8 vertices and the triangles between them.
-struct Grid {
-    std::vector<glm::vec3> positions;
-    std::vector<std::uint32_t> indices;
-
-    Grid() {
-        for (std::uint32_t i = 0; i < 64; ++i)
-            positions.emplace_back(float(i % 8), float(i / 8), 0.1f * float(i % 5));
-        for (std::uint32_t y = 0; y < 7; ++y)
-            for (std::uint32_t x = 0; x < 7; ++x) {
-                const std::uint32_t a = 8 * y + x;
-                indices.insert(indices.end(), {a, a + 1, a + 8, a + 8, a + 1, a + 9});
-            }
-    }
-};
 
 /// Corners of all triangles, in an order of their own.
 std::vector<std::array<float, 9>> trianglesOf(const Mesh& mesh) {
@@ -59,38 +40,6 @@ Mesh plainMesh(const Grid& grid) {
     mesh.positions = grid.positions;
     mesh.indices = grid.indices;
     return mesh;
-}
-
-/// A view of packed bytes, and of what they unpack to in a buffer without data.
-int packedView(GltfBuilder& b, const std::vector<std::uint8_t>& packed, std::size_t stride,
-               std::size_t count, const char* mode) {
-    const int view = b.view(packed);
-    nlohmann::json& json = b.json["bufferViews"][std::size_t(view)];
-    nlohmann::json extension = json;
-    extension["byteStride"] = stride;
-    extension["count"] = count;
-    extension["mode"] = mode;
-    json["byteLength"] = stride * count;
-    json["extensions"]["EXT_meshopt_compression"] = extension;
-    return view;
-}
-
-GltfBuilder meshoptScene(const Grid& grid) {
-    GltfBuilder b;
-    constexpr std::size_t kStride = sizeof(glm::vec3);
-    std::vector<std::uint8_t> vertices(meshopt_encodeVertexBufferBound(64, kStride)),
-        indices(meshopt_encodeIndexBufferBound(grid.indices.size(), 64));
-    vertices.resize(meshopt_encodeVertexBuffer(vertices.data(), vertices.size(),
-                                               grid.positions.data(), 64, kStride));
-    indices.resize(meshopt_encodeIndexBuffer(indices.data(), indices.size(), grid.indices.data(),
-                                             grid.indices.size()));
-    const int position = b.accessor(packedView(b, vertices, kStride, 64, "ATTRIBUTES"), "VEC3",
-                                    GltfBuilder::kFloat, 64),
-              index = b.accessor(packedView(b, indices, 4, grid.indices.size(), "TRIANGLES"),
-                                 "SCALAR", GltfBuilder::kUnsignedInt, grid.indices.size());
-    b.mesh({{"attributes", {{"POSITION", position}}}, {"indices", index}});
-    b.json["extensionsRequired"] = {"EXT_meshopt_compression"};
-    return b;
 }
 
 TEST(GltfPacked, GeometryOfMeshoptimizerIsUnpacked) {
@@ -122,37 +71,6 @@ TEST(GltfPacked, DamagedGeometryOfMeshoptimizerIsRefusedByName) {
     expect("count", "x", "byteLength, byteStride or count");
     expect("mode", "LINES", "mode: LINES");
     expect("filter", "OCTAHEDRAL", "filter: OCTAHEDRAL");
-}
-
-std::vector<std::uint8_t> dracoBytes(const Grid& grid, int speed) {
-    draco::TriangleSoupMeshBuilder builder;
-    builder.Start(int(grid.indices.size() / 3));
-    const int id = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
-    for (std::uint32_t f = 0; f < grid.indices.size() / 3; ++f)
-        builder.SetAttributeValuesForFace(
-            id, draco::FaceIndex(f), &grid.positions[grid.indices[3 * f]],
-            &grid.positions[grid.indices[3 * f + 1]], &grid.positions[grid.indices[3 * f + 2]]);
-    const std::unique_ptr<draco::Mesh> mesh = builder.Finalize();
-    draco::Encoder encoder;
-    encoder.SetSpeedOptions(speed, speed);
-    draco::EncoderBuffer buffer;
-    EXPECT_TRUE(encoder.EncodeMeshToBuffer(*mesh, &buffer).ok());
-    return {buffer.data(), buffer.data() + buffer.size()};
-}
-
-GltfBuilder dracoScene(const std::vector<std::uint8_t>& bytes, std::size_t corners) {
-    GltfBuilder b;
-    const int view = b.view(bytes);
-    b.json["accessors"] = {
-        {{"componentType", GltfBuilder::kFloat}, {"count", 64}, {"type", "VEC3"}},
-        {{"componentType", GltfBuilder::kUnsignedShort}, {"count", corners}, {"type", "SCALAR"}}};
-    b.mesh({{"attributes", {{"POSITION", 0}}},
-            {"indices", 1},
-            {"extensions",
-             {{"KHR_draco_mesh_compression",
-               {{"bufferView", view}, {"attributes", {{"POSITION", 0}}}}}}}});
-    b.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-    return b;
 }
 
 TEST(GltfPacked, GeometryOfDracoIsUnpacked) {

@@ -2,7 +2,7 @@
 // Animations at a time, and skins in the pose of their joints.
 #include "engine/gltf/gltf_import.h"
 #include "tests/core/source_path.h"
-#include "tests/gltf/gltf_builder.h"
+#include "tests/gltf/packed_scenes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,20 +22,6 @@ Result<ImportedScene> importAt(const GltfBuilder& b, std::optional<double> secon
     ImportOptions options;
     options.seconds = seconds;
     return importGltf(folder.file("scene.glb"), {}, options);
-}
-
-int scalars(GltfBuilder& b, const std::vector<float>& values) {
-    return b.accessor(b.view(values), "SCALAR", GltfBuilder::kFloat, values.size());
-}
-
-/// Adds a channel to the only animation.
-void animate(GltfBuilder& b, const nlohmann::json& target, int input, int output,
-             const char* interpolation = "LINEAR") {
-    nlohmann::json& animation = b.json["animations"][0];
-    const std::size_t sampler = animation.contains("samplers") ? animation["samplers"].size() : 0;
-    animation["samplers"].push_back(
-        {{"input", input}, {"output", output}, {"interpolation", interpolation}});
-    animation["channels"].push_back({{"sampler", sampler}, {"target", target}});
 }
 
 glm::vec3 placeOf(const Result<ImportedScene>& scene, glm::vec3 point) {
@@ -121,39 +107,6 @@ TEST(GltfPose, LightsAndMorphWeightsChangeWithTime) {
     EXPECT_TRUE(std::ranges::any_of(scene->repairs, [](const std::string& line) {
         return line == "1 animated properties that stay as they are";
     }));
-}
-
-/// A strip along x on two joints, of which the second is bent up by 90 degrees at x = 1.
-GltfBuilder bentStrip() {
-    GltfBuilder b;
-    const std::vector<std::array<std::uint8_t, 4>> joints(
-        {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 1, 0, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}});
-    const std::vector<glm::vec4> weights({{1, 0, 0, 0},
-                                          {1, 0, 0, 0},
-                                          {0.5f, 0.5f, 0, 0},
-                                          {0.5f, 0.5f, 0, 0},
-                                          {1, 0, 0, 0},
-                                          {2, 0, 0, 0}}); // the sum of weights does not matter
-    b.mesh(
-        {{"attributes",
-          {{"POSITION", b.vec3({{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {1, 0, 1}, {2, 0, 0}, {2, 0, 1}})},
-           {"NORMAL", b.vec3(std::vector<glm::vec3>(6, {0, 1, 0}))},
-           {"JOINTS_0", b.accessor(b.view(joints), "VEC4", GltfBuilder::kUnsignedByte, 6)},
-           {"WEIGHTS_0", b.accessor(b.view(weights), "VEC4", GltfBuilder::kFloat, 6)}}},
-         {"indices", b.indices({0, 1, 2, 2, 1, 3, 2, 3, 4, 4, 3, 5})}});
-    glm::mat4 back(1);
-    back[3] = {-1, 0, 0, 1};
-    const std::vector<glm::mat4> inverse{glm::mat4(1), back};
-    const float h = std::sqrt(0.5f);
-    b.json["nodes"].push_back({{"translation", {5, 0, 0}}, {"children", {2}}});
-    b.json["nodes"].push_back({{"translation", {1, 0, 0}}, {"rotation", {0, 0, h, h}}});
-    b.json["nodes"][0]["skin"] = 0;
-    b.json["nodes"][0]["translation"] = {100, 100, 100}; // which a skin makes meaningless
-    b.json["scenes"][0]["nodes"].push_back(1);
-    b.json["skins"] = {
-        {{"joints", {1, 2}},
-         {"inverseBindMatrices", b.accessor(b.view(inverse), "MAT4", GltfBuilder::kFloat, 2)}}};
-    return b;
 }
 
 TEST(GltfPose, JointsMoveTheVerticesOfASkin) {
