@@ -195,6 +195,7 @@ void addBakeCommand(Command& app) {
     auto command = std::make_shared<BakeCommand>();
     Command sub = app.addCommand("bake", "Precompute a scene's light transport");
     addSceneOptions(sub, command->scene);
+    addTimeOption(sub, command->scene);
     addBakeOptions(sub, command->bake);
     Option folder = sub.option(
         "--cache", command->store.folder,

@@ -49,6 +49,7 @@ void addEditCommand(Command& app) {
             "whichever is faster on this machine")
         .oneOf(std::vector<std::string>(kRelightOnNames.begin(), kRelightOnNames.end()));
     addImportOptions(command, options->import);
+    addTimeOption(command, options->import);
     command.flag("--no-bake", options->noBake, "Do not bake a scene as soon as it is opened");
     command.onRun([options] {
         options->projectsFolder = projectsFolder();

@@ -250,6 +250,7 @@ void addExportCommand(Command& app) {
     const auto o = std::make_shared<ExportCommand>();
     Command command = app.addCommand("export", "Write a scene's light for other programs");
     addSceneOptions(command, o->scene);
+    addTimeOption(command, o->scene);
     addBakeOptions(command, o->bake);
     addViewOptions(command, o->camera);
     addRelightOptions(command, o->relight);

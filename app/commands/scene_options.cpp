@@ -83,8 +83,15 @@ void addTimeOption(Command& command, SceneOptions& options) {
                 options.import.seconds = seconds;
             },
             "Time at which animated textures, nodes, skins and lights are shown [s]; default: 0 "
-            "for "
-            "textures, and at rest for the others")
+            "for textures, and at rest for the others")
+        .within(-1e6, 1e6);
+}
+
+void addTimeOption(Command& command, ImportOptions& options) {
+    command
+        .numberOption(
+            "--time", [&options](double seconds) { options.seconds = seconds; },
+            "Time at which animated nodes, skins and lights are read [s]; default: at rest")
         .within(-1e6, 1e6);
 }
 

@@ -35,7 +35,10 @@ void addDynamicOption(Command& command, SceneOptions& options);
 /// Adds --memory and --outside-files.
 void addImportOptions(Command& command, ImportOptions& options);
 
+/// Adds --time, for animated textures as well as for what the file animates.
 void addTimeOption(Command& command, SceneOptions& options);
+/// The same where textures have a time of their own.
+void addTimeOption(Command& command, ImportOptions& options);
 
 /// The generated scene as if it had been imported. The dark room's camera is the second one.
 ImportedScene importedScene(const GeneratedScene& generated);

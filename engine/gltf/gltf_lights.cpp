@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "engine/gltf/gltf_lights.h"
 
+#include "engine/gltf/gltf_value.h"
+#include "engine/scene/light/rectangle_light.h"
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
@@ -66,6 +71,64 @@ static void addLight(Document& document, const tinygltf::Light& source, const st
     addObject(document, light);
 }
 
+/// Adds a light of EXT_lights_area, whose size grows with the largest scale of its node.
+static void addAreaLight(Document& document, const tinygltf::Value& source,
+                         const std::string& nodeName, const glm::mat4& toWorld, bool visible,
+                         GltfRepairs& repairs) {
+    const auto numberOf = [](const tinygltf::Value* value, double missing) {
+        return value && value->IsNumber() ? value->GetNumberAsDouble() : missing;
+    };
+    const auto textOf = [&](const char* key) {
+        const tinygltf::Value* value = member(source, key);
+        return value && value->IsString() ? value->Get<std::string>() : std::string();
+    };
+    const std::string type = textOf("type"), name = textOf("name");
+    if (type != "rect" && type != "disk") {
+        repairs.add("area lights of unknown type left out");
+        return;
+    }
+    Light light{.kind = LightKind::Rectangle, .enabled = visible};
+    light.name = !nodeName.empty() ? nodeName : !name.empty() ? name : "Light";
+    light.position = glm::vec3(toWorld[3]);
+    light.direction = axis(toWorld, {0, 0, -1}, {0, -1, 0});
+    const tinygltf::Value* color = member(source, "color");
+    for (int c = 0; color && color->IsArray() && color->ArrayLen() == 3 && c < 3; ++c)
+        light.color[c] = lightNumber(numberOf(&color->Get(c), 1), repairs);
+    light.strength = lightNumber(numberOf(member(source, "intensity"), 1000), repairs);
+    const float scale =
+        std::max({glm::length(glm::vec3(toWorld[0])), glm::length(glm::vec3(toWorld[1])),
+                  glm::length(glm::vec3(toWorld[2]))});
+    const float size = scale * notNegative(numberOf(member(source, "size"), 1), repairs);
+    const tinygltf::Value* rectangle = member(source, "rect");
+    if (type == "disk") {
+        repairs.add("round lights shown as squares of the same area");
+        light.size = glm::vec2(size * std::sqrt(glm::pi<float>()) / 2);
+    } else {
+        const tinygltf::Value* aspect = rectangle ? member(*rectangle, "aspect") : nullptr;
+        light.size = {size * notNegative(numberOf(aspect, 1), repairs), size};
+    }
+    light.size = glm::clamp(light.size, kMinLightSize, kMaxLightSize);
+    const LightRectangle level = lightRectangle(light);
+    const glm::vec3 across = axis(toWorld, {1, 0, 0}, level.halfWidth);
+    light.roll = std::atan2(glm::dot(across, glm::normalize(level.halfHeight)),
+                            glm::dot(across, glm::normalize(level.halfWidth)));
+    addObject(document, light);
+}
+
+/// The light that a node's EXT_lights_area names; null if there is none.
+static const tinygltf::Value* areaLightOf(const tinygltf::Model& model,
+                                          const tinygltf::Node& node) {
+    constexpr const char* kArea = "EXT_lights_area";
+    const auto named = node.extensions.find(kArea), all = model.extensions.find(kArea);
+    if (named == node.extensions.end() || all == model.extensions.end())
+        return nullptr;
+    const std::optional<std::size_t> index = wholeNumber(member(named->second, "light"));
+    const tinygltf::Value* lights = member(all->second, "lights");
+    if (!index || !lights || !lights->IsArray() || *index >= lights->ArrayLen())
+        return nullptr;
+    return &lights->Get(int(*index));
+}
+
 static void addCamera(Document& document, const tinygltf::Camera& source,
                       const std::string& nodeName, const glm::mat4& toWorld, GltfRepairs& repairs) {
     if (source.type != "perspective") {
@@ -103,6 +166,8 @@ void addLightAndCamera(Document& document, const tinygltf::Model& model, std::si
             addLight(document, model.lights[std::size_t(light)], node.name, toWorld, visible,
                      repairs);
     }
+    if (const tinygltf::Value* area = areaLightOf(model, node))
+        addAreaLight(document, *area, node.name, toWorld, visible, repairs);
     if (node.camera >= 0 && std::size_t(node.camera) < model.cameras.size())
         addCamera(document, model.cameras[std::size_t(node.camera)], node.name, toWorld, repairs);
 }

@@ -10,7 +10,8 @@
 
 namespace limn {
 
-/// Adds the KHR_lights_punctual light and the perspective camera of nodes[index], if it has them,
+/// Adds the lights of KHR_lights_punctual and EXT_lights_area and the perspective camera of
+/// nodes[index], if it has them,
 /// in world space. `toWorld` is the node's transform. Both look down the node's -Z; its scale
 /// affects neither. A light that is not `visible` is off.
 void addLightAndCamera(Document& document, const tinygltf::Model& model, std::size_t index,

@@ -3,7 +3,7 @@
 #include "engine/gltf/data_uri.h"
 #include "engine/gltf/gltf_chunks.h"
 #include "engine/gltf/gltf_import.h"
-#include "engine/scene/surface/specular.h"
+#include "engine/scene/light/rectangle_light.h"
 #include "tests/gltf/gltf_builder.h"
 
 #include <algorithm>
@@ -259,6 +259,43 @@ TEST(GltfKinds, NodesMayBeHidden) {
     const Scene flat = flatten(scene->document, scene->assets);
     EXPECT_EQ(flat.instances.size(), 1U);
     EXPECT_EQ(std::ranges::count_if(flat.lights, &Light::enabled), 1);
+}
+
+/// Rectangles shine along -Z of their node, and their size follows its largest scale.
+TEST(GltfKinds, AreaLightsAreRectangles) {
+    GltfBuilder b = triangleScene();
+    b.json["extensions"]["EXT_lights_area"]["lights"] = {{{"type", "rect"},
+                                                          {"size", 0.5},
+                                                          {"rect", {{"aspect", 3}}},
+                                                          {"intensity", 40},
+                                                          {"color", {1, 0.5, 0.25}}},
+                                                         {{"type", "disk"}, {"size", 2}}};
+    const float h = std::sqrt(0.5f);
+    const auto light = [](int index) {
+        return nlohmann::json{{"EXT_lights_area", {{"light", index}}}};
+    };
+    b.json["nodes"].push_back({{"translation", {1, 2, 3}},
+                               {"rotation", {0, h, 0, h}}, // -z becomes -x, and x becomes -z
+                               {"scale", {1, 2, 1}},
+                               {"extensions", light(0)}});
+    b.json["nodes"].push_back({{"rotation", {0, 0, h, h}}, {"extensions", light(1)}});
+    b.json["nodes"].push_back({{"extensions", light(7)}});
+    b.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+    const Result<ImportedScene> scene = b.import();
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Scene flat = flatten(scene->document, scene->assets);
+    ASSERT_EQ(flat.lights.size(), 2U);
+    const LightRectangle r = lightRectangle(flat.lights[0]);
+    EXPECT_LT(glm::distance(r.centre, {1, 2, 3}), 1e-6f);
+    EXPECT_LT(glm::distance(r.normal, {-1, 0, 0}), 1e-6f);
+    EXPECT_LT(glm::distance(glm::abs(r.halfWidth), {0, 0, 1.5f}), 1e-5f);
+    EXPECT_LT(glm::distance(glm::abs(r.halfHeight), {0, 0.5f, 0}), 1e-5f);
+    EXPECT_EQ(flat.lights[0].strength, 40);
+    EXPECT_EQ(flat.lights[0].color, glm::vec3(1, 0.5f, 0.25f));
+    const LightRectangle square = lightRectangle(flat.lights[1]);
+    EXPECT_NEAR(square.area, std::acos(-1.f), 1e-5f); // of a disc of radius 1
+    EXPECT_LT(std::abs(square.halfWidth.x), 1e-6f);   // turned by its node
+    EXPECT_EQ(flat.lights[1].strength, 1000);
 }
 
 /// A scale of 0 along one axis flattens, whatever stands below the node.
