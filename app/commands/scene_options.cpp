@@ -11,6 +11,7 @@
 #include "engine/scene/light/light_spec.h"
 #include "engine/scene/origin.h"
 #include "engine/scene/reach.h"
+#include "engine/scene/sky_sun.h"
 
 #include <algorithm>
 #include <charconv>
@@ -72,6 +73,13 @@ void addLightOptions(Command& command, SceneOptions& options) {
         .option("--sky-rotation", options.skyRotation,
                 "Rotation of the panorama about +Y, from +Z towards +X [degrees]")
         .within(-1e6, 1e6);
+    command
+        .option(
+            "--sky-sun",
+            [&options](const std::string& value) { options.extractsSun = value == "extract"; },
+            "What becomes of a sun in the panorama: keep, or extract, which makes it a directional "
+            "light with sharp shadows")
+        .oneOf({"keep", "extract"});
 }
 
 void addTimeOption(Command& command, SceneOptions& options) {
@@ -160,6 +168,12 @@ Result<ImportedScene> openScene(const SceneOptions& options) {
         skyOf(scene->document).strength = *options.skyStrength;
     if (options.skyRotation)
         skyOf(scene->document).rotation = glm::radians(*options.skyRotation);
+    if (options.extractsSun) {
+        if (const std::optional<Light> sun = extractSun(skyOf(scene->document)))
+            addObject(scene->document, *sun);
+        else
+            logWarning("--sky-sun: the sky has no sun to extract");
+    }
     for (const std::string& spec : options.dynamics)
         if (const Result<void> made = makeDynamic(scene->document, spec); !made)
             return tl::make_unexpected(made.error());

@@ -21,6 +21,7 @@ struct SceneOptions {
     std::vector<std::string> lights;
     std::string sky;
     std::optional<float> skyStrength, skyRotation; ///< factor, degrees
+    bool extractsSun = false;                      ///< makes the panorama's sun a light
     double seconds = 0;                            ///< since the start of animated textures
     std::vector<std::string> dynamics;
     ImportOptions import;
