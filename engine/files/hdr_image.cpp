@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/hdr_image.h"
 
+#include "engine/files/flip_rows.h"
 #include "engine/scene/decode_image.h"
 
 #include <algorithm>
@@ -170,10 +171,8 @@ Result<ImageF> decodeHdr(Bytes file, const MemoryBudget& memory) {
         for (const Rgbe& texel : row)
             image.rgb.emplace_back(glm::dvec3(colorOf(texel)) / correction.factor);
     }
-    for (std::uint32_t y = 0; rows.isReversed && y < image.height / 2; ++y)
-        std::swap_ranges(image.rgb.begin() + std::ptrdiff_t(y) * image.width,
-                         image.rgb.begin() + std::ptrdiff_t(y + 1) * image.width,
-                         image.rgb.end() - std::ptrdiff_t(y + 1) * image.width);
+    if (rows.isReversed)
+        flipRows(image);
     return image;
 }
 

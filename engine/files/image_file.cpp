@@ -4,10 +4,10 @@
 #include "engine/core/read_file.h"
 #include "engine/core/replace_file.h"
 #include "engine/files/exr_check.h"
+#include "engine/files/flip_rows.h"
 #include "engine/files/hdr_image.h"
 #include "engine/scene/decode_image.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -171,10 +171,8 @@ static Result<ImageF> readExr(const std::string& path, std::span<const std::uint
     // tinyexr turns files around whose lines are stored from the last to the first. Every line says
     // which one it is, so that their order changes nothing.
     constexpr int kDecreasing = 1;
-    for (std::uint32_t y = 0; exr.header.line_order == kDecreasing && y < out.height / 2; ++y)
-        std::swap_ranges(out.rgb.begin() + std::ptrdiff_t(y) * out.width,
-                         out.rgb.begin() + std::ptrdiff_t(y + 1) * out.width,
-                         out.rgb.end() - std::ptrdiff_t(y + 1) * out.width);
+    if (exr.header.line_order == kDecreasing)
+        flipRows(out);
     return out;
 }
 

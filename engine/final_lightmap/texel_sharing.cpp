@@ -18,8 +18,7 @@ namespace limn {
 
 namespace {
 
-constexpr std::array<glm::vec2, 4> kSteps{
-    {glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(-1, 0), glm::vec2(0, -1)}};
+constexpr std::array<glm::ivec2, 4> kSteps = SharingLinks::kSteps;
 
 /// A piece of a chart: maps places of texels in the atlas to the plane of the chart.
 struct PieceFrame {
@@ -126,8 +125,7 @@ InstancePieces SharingFinder::piecesOf(std::uint32_t instance) const {
 std::uint32_t SharingFinder::nextInRow(std::uint32_t t, std::uint32_t way) const {
     const AtlasTexel& texel = lit.atlas.texels[t];
     const glm::ivec2 size(int(lit.atlas.layout.width), int(lit.atlas.layout.height)),
-        place = glm::ivec2(int(texel.texel) % size.x, int(texel.texel) / size.x) +
-                glm::ivec2(kSteps[way]);
+        place = glm::ivec2(int(texel.texel) % size.x, int(texel.texel) / size.x) + kSteps[way];
     if (place.x < 0 || place.y < 0 || place.x >= size.x || place.y >= size.y)
         return kNoTexel;
     const std::uint32_t next = lit.texelAt[std::size_t(place.y) * std::size_t(size.x) + place.x];
@@ -153,7 +151,7 @@ void SharingFinder::linkAcross(std::uint32_t t, std::uint32_t way, SharingLinks&
         place =
             glm::vec2(float(texel.texel % layout.width), float(texel.texel / layout.width)) - back;
     const PieceFrame& frame = *here.piece[chart];
-    const glm::vec2 beyond = frame.chartAt(place + kSteps[way]),
+    const glm::vec2 beyond = frame.chartAt(place + glm::vec2(kSteps[way])),
                     step = beyond - frame.chartAt(place);
     float closest = glm::dot(step, step);
     for (const PieceFrame& other : here.ofChart[cut.chartBefore(texel.instance, chart).chart]) {

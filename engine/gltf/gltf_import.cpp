@@ -75,10 +75,8 @@ PrimitiveUse useOf(const std::vector<Material>& materials, const tinygltf::Primi
     PrimitiveUse use{.uvSets = {}, .normalMapSet = {}, .morphWeights = weights, .skin = skin};
     if (primitive.material < 0 || std::size_t(primitive.material) >= materials.size())
         return use;
-    Material material = materials[std::size_t(primitive.material)];
-    for (const TextureRef* texture : texturesOf(material))
-        if (texture->image >= 0)
-            use.uvSets.insert(texture->texCoord);
+    const Material& material = materials[std::size_t(primitive.material)];
+    use.uvSets = uvSetsOf(material);
     if (material.normalTexture.image >= 0)
         use.normalMapSet = material.normalTexture.texCoord;
     return use;

@@ -75,9 +75,6 @@ static void addLight(Document& document, const tinygltf::Light& source, const st
 static void addAreaLight(Document& document, const tinygltf::Value& source,
                          const std::string& nodeName, const glm::mat4& toWorld, bool visible,
                          GltfRepairs& repairs) {
-    const auto numberOf = [](const tinygltf::Value* value, double missing) {
-        return value && value->IsNumber() ? value->GetNumberAsDouble() : missing;
-    };
     const auto textOf = [&](const char* key) {
         const tinygltf::Value* value = member(source, key);
         return value && value->IsString() ? value->Get<std::string>() : std::string();
@@ -93,19 +90,19 @@ static void addAreaLight(Document& document, const tinygltf::Value& source,
     light.direction = axis(toWorld, {0, 0, -1}, {0, -1, 0});
     const tinygltf::Value* color = member(source, "color");
     for (int c = 0; color && color->IsArray() && color->ArrayLen() == 3 && c < 3; ++c)
-        light.color[c] = lightNumber(numberOf(&color->Get(c), 1), repairs);
-    light.strength = lightNumber(numberOf(member(source, "intensity"), 1000), repairs);
+        light.color[c] = lightNumber(double(number(&color->Get(c), 1)), repairs);
+    light.strength = lightNumber(double(number(member(source, "intensity"), 1000)), repairs);
     const float scale =
         std::max({glm::length(glm::vec3(toWorld[0])), glm::length(glm::vec3(toWorld[1])),
                   glm::length(glm::vec3(toWorld[2]))});
-    const float size = scale * notNegative(numberOf(member(source, "size"), 1), repairs);
+    const float size = scale * notNegative(double(number(member(source, "size"), 1)), repairs);
     const tinygltf::Value* rectangle = member(source, "rect");
     if (type == "disk") {
         repairs.add("round lights shown as squares of the same area");
         light.size = glm::vec2(size * std::sqrt(glm::pi<float>()) / 2);
     } else {
         const tinygltf::Value* aspect = rectangle ? member(*rectangle, "aspect") : nullptr;
-        light.size = {size * notNegative(numberOf(aspect, 1), repairs), size};
+        light.size = {size * notNegative(double(number(aspect, 1)), repairs), size};
     }
     light.size = glm::clamp(light.size, kMinLightSize, kMaxLightSize);
     const LightRectangle level = lightRectangle(light);

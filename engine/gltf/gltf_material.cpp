@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -18,10 +17,6 @@ static const tinygltf::Value* extension(const tinygltf::ExtensionMap& extensions
                                         const char* name) {
     const auto found = extensions.find(name);
     return found == extensions.end() ? nullptr : &found->second;
-}
-
-static float number(const tinygltf::Value* value, float missing) {
-    return value && value->IsNumber() ? float(value->GetNumberAsDouble()) : missing;
 }
 
 static glm::vec2 pair(const tinygltf::Value* value, glm::vec2 missing) {
@@ -181,17 +176,6 @@ static void readSpecularGlossiness(const tinygltf::Model& model, const tinygltf:
     repairs.add("glossiness textures left out", member(e, "specularGlossinessTexture") ? 1 : 0);
 }
 
-/// Reports textures of more sets than vertices on a device have.
-static void countUvSets(Material m, GltfRepairs& repairs) {
-    std::set<std::uint32_t> sets;
-    for (const TextureRef* texture : texturesOf(m))
-        if (texture->image >= 0)
-            sets.insert(texture->texCoord);
-    repairs.add("materials that read more than two sets of texture coordinates, of which the "
-                "viewport shows two",
-                sets.size() > 2 ? 1 : 0);
-}
-
 Material readMaterial(const tinygltf::Model& model, std::size_t index, GltfRepairs& repairs) {
     const tinygltf::Material& source = model.materials[index];
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
@@ -222,7 +206,9 @@ Material readMaterial(const tinygltf::Model& model, std::size_t index, GltfRepai
     // Without its texture, nobody knows how much of a surface is meant to shine.
     if (source.emissiveTexture.index >= 0 && m.emissiveTexture.image < 0)
         m.emission = glm::vec3(0);
-    countUvSets(m, repairs);
+    repairs.add("materials that read more than two sets of texture coordinates, of which the "
+                "viewport shows two",
+                uvSetsOf(m).size() > 2 ? 1 : 0);
     return m;
 }
 

@@ -10,7 +10,7 @@ namespace limn {
 
 using Json = nlohmann::json;
 
-/// As deep as readJson() allows.
+/// Recursive; readJson() has refused JSON that is nested deeply.
 static void writeIntegers(Json& value) {
     if (value.is_structured()) {
         for (Json& member : value)

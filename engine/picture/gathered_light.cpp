@@ -77,8 +77,7 @@ static void followLinks(const GatheredLight& light, std::uint32_t middle, Sharin
         glm::ivec2 place;
         std::uint32_t pixel, turn;
     };
-    constexpr std::array<glm::ivec2, 4> kSteps{
-        {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)}};
+    constexpr std::array<glm::ivec2, 4> kSteps = SharingLinks::kSteps;
     std::array<Reached, std::tuple_size_v<decltype(window.pixel)>> reached;
     std::size_t count = 0;
     bool crossed = false; // a seam

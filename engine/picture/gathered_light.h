@@ -54,6 +54,8 @@ PixelRect windowAround(glm::uvec2 pixel, std::uint32_t radius, const PixelRect& 
 /// The next pixels with which a pixel shares noise: to its right, below, to its left and above.
 struct SharingLinks {
     static constexpr std::uint32_t kNone = ~0U;
+    static constexpr std::array<glm::ivec2, 4> kSteps{
+        {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)}};
     std::array<std::uint32_t, 4> next{kNone, kNone, kNone, kNone}; ///< PixelRect::numberOf()
     /// How many directions further in this order the same way leads from there, in [0, 3].
     std::array<std::uint8_t, 4> turn{};

@@ -41,10 +41,11 @@ Meeting meetingOf(const TraceScene& trace, const Hit& hit, glm::vec3 direction) 
     const Scene& scene = trace.scene();
     const float side = hit.frontFace ? 1.f : -1.f;
     Meeting m{.geometricNormal = side * hit.geometricNormal,
-              .normal = shadingNormalAt(scene, hit),
+              .normal = {},
               .toLight = -direction,
               .inside = isWithinBody(scene, hit),
               .point = surfacePoint(trace, hit)};
+    m.normal = m.point ? m.point->normal : shadingNormalAt(scene, hit);
     if (!(glm::dot(m.normal, m.toLight) > 0))
         m.normal = m.geometricNormal;
     return m;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Kinds of files that other programs write, beyond what the specification's examples show.
+#include "engine/core/base64.h"
 #include "engine/gltf/data_uri.h"
 #include "engine/gltf/gltf_chunks.h"
 #include "engine/gltf/gltf_import.h"
@@ -13,20 +14,6 @@
 
 namespace limn::gltf_kinds_test {
 namespace {
-
-std::string base64(std::string_view bytes) {
-    static constexpr char kDigits[] =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            bits = bits << 8 | (i + k < bytes.size() ? std::uint8_t(bytes[i + k]) : 0U);
-        for (std::size_t k = 0; k < 4; ++k)
-            out += i + k <= bytes.size() ? kDigits[bits >> (18 - 6 * k) & 63] : '=';
-    }
-    return out;
-}
 
 /// The builder's JSON with its buffer in a URI of this media type.
 Result<ImportedScene> importText(const GltfBuilder& b, std::string_view header) {

@@ -111,12 +111,10 @@ void linkAll(GatheredLight& light, const PixelRect& rect) {
         SharingLinks& links = light.links[light.rect.numberOf(p)];
         const std::array<bool, 4> inside{p.x + 1 < rect.end.x, p.y + 1 < rect.end.y,
                                          p.x > rect.begin.x, p.y > rect.begin.y};
-        const std::array<glm::ivec2, 4> steps{
-            {glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)}};
         for (std::size_t way = 0; way < 4; ++way)
             if (inside[way])
-                links.next[way] =
-                    std::uint32_t(light.rect.numberOf(glm::uvec2(glm::ivec2(p) + steps[way])));
+                links.next[way] = std::uint32_t(
+                    light.rect.numberOf(glm::uvec2(glm::ivec2(p) + SharingLinks::kSteps[way])));
     });
 }
 

@@ -3,24 +3,18 @@
 
 #include "engine/scene/surface/material_textures.h"
 
-#include <algorithm>
-#include <vector>
+#include <set>
 
 namespace limn::render {
 
 UvSlots uvSlots(const Material& material) {
-    Material copy = material;
-    std::vector<std::uint32_t> sets;
-    for (const TextureRef* texture : texturesOf(copy))
-        if (texture->image >= 0)
-            sets.push_back(texture->texCoord);
-    std::ranges::sort(sets);
-    sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
+    const std::set<std::uint32_t> sets = uvSetsOf(material);
     UvSlots slots;
-    if (sets.empty() || sets.back() < 2)
+    if (sets.empty() || *sets.rbegin() < 2)
         return slots;
-    for (std::size_t k = 0; k < std::min<std::size_t>(sets.size(), 2); ++k)
-        slots.set[k] = sets[k];
+    auto set = sets.begin();
+    for (std::size_t k = 0; k < slots.set.size() && set != sets.end(); ++k)
+        slots.set[k] = *set++;
     return slots;
 }
 
