@@ -202,6 +202,11 @@ Exit runExport(const ExportCommand& options) {
             fmt::format("{} texels per cache a side instead of {}: a texture would be larger "
                         "than --max-size",
                         forecast.detail, settings.detail));
+    for (const Light& light : lit->scene->lights)
+        if (profileOf(light) && shines(light))
+            logWarning(fmt::format("light '{}': the file spreads its flux evenly; it has no IES "
+                                   "profiles. The lightmap has them",
+                                   light.name));
     if (!options.json)
         fmt::print("About {}{}\n", bytesText(forecast.bytes), lightmapText(forecast));
     const Result<std::vector<ExportedFile>> files =

@@ -58,10 +58,13 @@ void addDynamicOption(Command& command, SceneOptions& options) {
 
 void addLightOptions(Command& command, SceneOptions& options) {
     command
-        .option("--light", options.lights,
-                "Light to add: sun dir=x,y,z lux=E | point pos=x,y,z cd=I | spot pos= dir= cd= "
-                "inner=DEG outer=DEG | rect pos= dir= size=w,h nits=L roll=DEG; each with "
-                "color=r,g,b and name= if wanted; may be repeated")
+        .option(
+            "--light", options.lights,
+            "Light to add: sun dir=x,y,z lux=E | point pos=x,y,z cd=I | spot pos= dir= cd= "
+            "inner=DEG outer=DEG | rect pos= dir= size=w,h nits=L roll=DEG; each with "
+            "color=r,g,b or kelvin=T and name= if wanted; strengths also as lm= (point, spot, "
+            "rect), cd= (rect) and ev= (sun, rect); point and spot with ies=FILE dir= roll= for "
+            "a photometric file; may be repeated")
         .repeatable();
     command.option("--sky", options.sky,
                    "Sky instead of the scene's: r,g,b [nits] | gradient up=r,g,b horizon=r,g,b "

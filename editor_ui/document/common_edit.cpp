@@ -38,6 +38,7 @@ static void copy(const Light& before, const Light& after, Light& other) {
     copyField(before.innerAngle, after.innerAngle, other.innerAngle);
     copyComponents(before.size, after.size, other.size);
     copyField(before.roll, after.roll, other.roll);
+    copyField(before.profile, after.profile, other.profile);
 }
 
 static void copy(const Material& before, const Material& after, Material& other) {

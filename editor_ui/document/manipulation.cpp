@@ -104,10 +104,10 @@ static void manipulate(const Document& document, Light& light, const Manipulatio
                                                         ? manipulation.scale[i]
                                                         : factorAlong(manipulation, axes[i])),
                            kMinLightSize, kMaxLightSize);
-    if (!turns(manipulation) || light.kind == LightKind::Point)
+    if (!turns(manipulation) || (light.kind == LightKind::Point && !light.profile))
         return;
     light.direction = glm::normalize(manipulation.turn * light.direction);
-    if (rectangle)
+    if (rectangle || profileOf(light))
         light.roll = rollTowards(light, manipulation.turn * axes[0]);
 }
 
@@ -151,7 +151,7 @@ glm::mat3 ownAxes(const Document& document, const Object& object) {
     if (const auto* camera = std::get_if<Camera>(&object))
         return glm::transpose(glm::mat3(viewMatrix(*camera)));
     const auto* light = std::get_if<Light>(&object);
-    if (!light || light->kind == LightKind::Point)
+    if (!light || (light->kind == LightKind::Point && !light->profile))
         return glm::mat3(1);
     const LightRectangle r = lightRectangle(*light);
     const glm::vec3 x = glm::normalize(r.halfWidth), y = glm::normalize(r.halfHeight);

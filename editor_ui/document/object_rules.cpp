@@ -64,7 +64,8 @@ static bool valid(const Light& l) {
     return finite(l.position) && isUnit(glm::length(l.direction)) && isLight(l.color) &&
            isLight(l.strength) && atLeastZero(l.range) && l.innerAngle >= 0 &&
            l.innerAngle < l.outerAngle && l.outerAngle <= glm::half_pi<float>() + 1e-6f &&
-           isLightSize(l.size.x) && isLightSize(l.size.y) && std::isfinite(l.roll);
+           isLightSize(l.size.x) && isLightSize(l.size.y) && std::isfinite(l.roll) &&
+           (!l.profile || profileDefect(*l.profile).empty());
 }
 
 static bool valid(const Camera& c) {

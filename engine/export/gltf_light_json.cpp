@@ -2,6 +2,7 @@
 #include "engine/export/gltf_light_json.h"
 
 #include "engine/export/vector_json.h"
+#include "engine/scene/light/photometry.h"
 #include "engine/scene/light/rectangle_light.h"
 
 #include <algorithm>
@@ -49,7 +50,8 @@ Json matrixJson(const glm::mat4& m) {
     return json;
 }
 
-Json lightJson(const Light& light) {
+Json lightJson(const Light& whole) {
+    const Light light = withoutProfile(whole);
     // Colours end at 1; what is brighter is in the intensity.
     const glm::vec3 c = light.color;
     const float maximum = std::max({c.x, c.y, c.z, 1.f});

@@ -8,6 +8,7 @@
 #include "engine/export/grid_texture.h"
 #include "engine/export/lightmap_image.h"
 #include "engine/export/vector_json.h"
+#include "engine/scene/light/photometry.h"
 
 #include <algorithm>
 #include <array>
@@ -78,7 +79,8 @@ Json conventions() {
                  "a cell is lower + (index + 0.5) / size * (upper - lower)"}};
 }
 
-Json lightOf(const Light& light) {
+Json lightOf(const Light& whole) {
+    const Light light = withoutProfile(whole);
     constexpr std::array<const char*, 4> kKinds = {"directional", "point", "spot", "rectangle"};
     return {{"name", light.name},
             {"kind", kKinds[std::size_t(light.kind)]},

@@ -45,6 +45,17 @@ void describeAssetFile(Fields& fields, T& f) {
 }
 
 template <class Fields, class T>
+void describeProfile(Fields& fields, T& p) {
+    fields("name", p.name);
+    fields("peak", p.peak, kLightRange);
+    fields("firstVertical", p.firstVertical, FieldRange{0, 180});
+    fields("lastVertical", p.lastVertical, FieldRange{0, 180});
+    fields("rows", p.rows);
+    fields("columns", p.columns);
+    fields("share", p.share);
+}
+
+template <class Fields, class T>
 void describeLight(Fields& fields, T& l) {
     fields("name", l.name);
     fields("kind", l.kind, kLightNames);
@@ -59,6 +70,7 @@ void describeLight(Fields& fields, T& l) {
     fields("outerAngle", l.outerAngle, FieldRange{0, double(glm::half_pi<float>())});
     fields("size", l.size, FieldRange{kMinLightSize, kMaxLightSize});
     fields("roll", l.roll);
+    fields.profile("profile", l.profile);
 }
 
 template <class Fields, class T>

@@ -52,7 +52,11 @@ struct FieldWriter {
             out[name] = value;
         else if constexpr (std::is_same_v<T, std::map<std::string, double>>)
             out[name] = Json(value);
-        else if constexpr (std::is_same_v<T, glm::quat>)
+        else if constexpr (std::is_same_v<T, std::vector<float>>) {
+            out[name] = Json::array();
+            for (const float v : value)
+                out[name].push_back(shortest(v));
+        } else if constexpr (std::is_same_v<T, glm::quat>)
             for (const float v : {value.x, value.y, value.z, value.w})
                 out[name].push_back(shortest(v));
         else
@@ -79,6 +83,10 @@ struct FieldWriter {
     void object(const char* name, const T& value, const Describe& describe) {
         FieldWriter inner{out[name] = Json::object(), origin};
         describe(inner, value);
+    }
+    void profile(const char* name, const ProfileRef& value) {
+        if (value)
+            object(name, *value, [](auto& f, auto& p) { describeProfile(f, p); });
     }
 
 private:
@@ -132,6 +140,18 @@ public:
             describe(inner, value);
             inner.finish();
         }
+    }
+    void profile(const char* name, ProfileRef& value) {
+        const Json* json = take(name);
+        if (!json)
+            return;
+        LightProfile read;
+        FieldReader inner(*json, at(name), m_problem, m_origin);
+        describeProfile(inner, read);
+        inner.finish();
+        if (const std::string defect = profileDefect(read); m_problem.empty() && !defect.empty())
+            m_problem = at(name) + "." + defect;
+        value = {std::make_shared<const LightProfile>(std::move(read))};
     }
     /// Reports fields of the JSON object that were not read.
     void finish() {
@@ -195,6 +215,13 @@ private:
     void read(const Json& json, const std::string& name, std::vector<std::uint32_t>& value) {
         if (!json.isArray())
             return report(name, "not an array");
+        value.assign(json.size(), 0);
+        for (std::size_t i = 0; i < json.size() && m_problem.empty(); ++i)
+            read(json[i], fmt::format("{}[{}]", name, i), value[i]);
+    }
+    void read(const Json& json, const std::string& name, std::vector<float>& value) {
+        if (!json.isArray() || json.size() > std::size_t(kMaxProfileRows) * kMaxProfileColumns)
+            return report(name, "not an array of few enough numbers");
         value.assign(json.size(), 0);
         for (std::size_t i = 0; i < json.size() && m_problem.empty(); ++i)
             read(json[i], fmt::format("{}[{}]", name, i), value[i]);

@@ -7,6 +7,7 @@ namespace limn {
 
 static constexpr GltfExtension kExtensions[] = {
     {"EXT_lights_area", true, "the shape of round lights, which are squares of their area"},
+    {"EXT_lights_ies", true, "photometry of types A and B, and tilts"},
     {"EXT_mesh_gpu_instancing", true, ""},
     {"EXT_meshopt_compression", true, ""},
     {"EXT_texture_webp", true, "moving pictures"},
@@ -22,7 +23,6 @@ static constexpr GltfExtension kExtensions[] = {
     {"KHR_mesh_quantization", true, ""},
     {"KHR_node_visibility", true, ""},
     {"KHR_texture_transform", true, ""},
-    {"EXT_lights_ies", false, "its lights are absent"},
     {"EXT_lights_image_based", false, "the sky is black"},
     {"KHR_materials_anisotropy", false, "reflections are as wide in all directions"},
     {"KHR_materials_clearcoat", false, "surfaces have no coat"},

@@ -8,11 +8,13 @@
 #include "engine/gltf/gltf_material.h"
 #include "engine/gltf/gltf_mesh.h"
 #include "engine/gltf/gltf_nodes.h"
+#include "engine/gltf/gltf_profiles.h"
 #include "engine/gltf/gltf_size.h"
 #include "engine/scene/reach.h"
 #include "engine/scene/surface/material_textures.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <new>
 #include <optional>
@@ -240,8 +242,10 @@ static Result<ImportedScene> import(const std::string& path, const Progress& pro
     scene.document.sceneHash = file->hash;
     for (const Material& material : materials) // first: Mesh::material is their order of id
         addObject(scene.document, material);
+    const std::vector<ProfileRef> profiles = readProfiles(
+        model, std::filesystem::path(path).parent_path().string(), options.reach, repairs);
     if (const Result<void> added =
-            addNodes(scene.document, model, *meshes, *skins, assets->meshes, repairs);
+            addNodes(scene.document, model, *meshes, *skins, profiles, assets->meshes, repairs);
         !added)
         return tl::make_unexpected(added.error());
     addObject(scene.document, Sky{});

@@ -71,6 +71,23 @@ static void addLight(Document& document, const tinygltf::Light& source, const st
     addObject(document, light);
 }
 
+/// The member `color` of an extension's light; white where it has none.
+static glm::vec3 colorOf(const tinygltf::Value& source, GltfRepairs& repairs) {
+    const tinygltf::Value* color = member(source, "color");
+    glm::vec3 result(1);
+    for (int c = 0; color && color->IsArray() && color->ArrayLen() == 3 && c < 3; ++c)
+        result[c] = lightNumber(double(number(&color->Get(c), 1)), repairs);
+    return result;
+}
+
+/// Light::roll of a light that its node's X axis turns.
+static float rollOf(const Light& light, const glm::mat4& toWorld) {
+    const LightRectangle level = lightRectangle(light);
+    const glm::vec3 across = axis(toWorld, {1, 0, 0}, level.halfWidth);
+    return std::atan2(glm::dot(across, glm::normalize(level.halfHeight)),
+                      glm::dot(across, glm::normalize(level.halfWidth)));
+}
+
 /// Adds a light of EXT_lights_area, whose size grows with the largest scale of its node.
 static void addAreaLight(Document& document, const tinygltf::Value& source,
                          const std::string& nodeName, const glm::mat4& toWorld, bool visible,
@@ -88,9 +105,7 @@ static void addAreaLight(Document& document, const tinygltf::Value& source,
     light.name = !nodeName.empty() ? nodeName : !name.empty() ? name : "Light";
     light.position = glm::vec3(toWorld[3]);
     light.direction = axis(toWorld, {0, 0, -1}, {0, -1, 0});
-    const tinygltf::Value* color = member(source, "color");
-    for (int c = 0; color && color->IsArray() && color->ArrayLen() == 3 && c < 3; ++c)
-        light.color[c] = lightNumber(double(number(&color->Get(c), 1)), repairs);
+    light.color = colorOf(source, repairs);
     light.strength = lightNumber(double(number(member(source, "intensity"), 1000)), repairs);
     const float scale =
         std::max({glm::length(glm::vec3(toWorld[0])), glm::length(glm::vec3(toWorld[1])),
@@ -105,10 +120,22 @@ static void addAreaLight(Document& document, const tinygltf::Value& source,
         light.size = {size * notNegative(double(number(aspect, 1)), repairs), size};
     }
     light.size = glm::clamp(light.size, kMinLightSize, kMaxLightSize);
-    const LightRectangle level = lightRectangle(light);
-    const glm::vec3 across = axis(toWorld, {1, 0, 0}, level.halfWidth);
-    light.roll = std::atan2(glm::dot(across, glm::normalize(level.halfHeight)),
-                            glm::dot(across, glm::normalize(level.halfWidth)));
+    light.roll = rollOf(light, toWorld);
+    addObject(document, light);
+}
+
+/// Adds a light of EXT_lights_ies from what its node says of it.
+static void addProfileLight(Document& document, const tinygltf::Value& use,
+                            const ProfileRef& profile, const std::string& nodeName,
+                            const glm::mat4& toWorld, bool visible, GltfRepairs& repairs) {
+    Light light{.kind = LightKind::Point, .enabled = visible, .profile = profile};
+    light.name = !nodeName.empty() ? nodeName : !profile->name.empty() ? profile->name : "Light";
+    light.position = glm::vec3(toWorld[3]);
+    light.direction = axis(toWorld, {0, 0, -1}, {0, -1, 0});
+    light.roll = rollOf(light, toWorld);
+    light.color = colorOf(use, repairs);
+    const float multiplier = number(member(use, "multiplier"), 1);
+    light.strength = lightNumber(double(multiplier) * double(profile->peak), repairs);
     addObject(document, light);
 }
 
@@ -149,7 +176,24 @@ static void addCamera(Document& document, const tinygltf::Camera& source,
     addObject(document, camera);
 }
 
-void addLightAndCamera(Document& document, const tinygltf::Model& model, std::size_t index,
+/// Adds the light of a node's EXT_lights_ies, if its photometric file could be read.
+static void addProfileLightOf(Document& document, const tinygltf::Node& node,
+                              std::span<const ProfileRef> profiles, std::size_t index,
+                              const glm::mat4& toWorld, bool visible, GltfRepairs& repairs) {
+    const auto use = node.extensions.find("EXT_lights_ies");
+    if (use == node.extensions.end())
+        return;
+    const std::optional<std::size_t> light = wholeNumber(member(use->second, "light"));
+    if (!light || *light >= profiles.size())
+        repairs.sentences.push_back(
+            fmt::format("nodes[{}]: its light of EXT_lights_ies does not exist", index));
+    else if (profiles[*light])
+        addProfileLight(document, use->second, profiles[*light], node.name, toWorld, visible,
+                        repairs);
+}
+
+void addLightAndCamera(Document& document, const tinygltf::Model& model,
+                       std::span<const ProfileRef> profiles, std::size_t index,
                        const glm::mat4& toWorld, bool visible, GltfRepairs& repairs) {
     const tinygltf::Node& node = model.nodes[index];
     const auto extension = node.extensions.find("KHR_lights_punctual");
@@ -165,6 +209,7 @@ void addLightAndCamera(Document& document, const tinygltf::Model& model, std::si
     }
     if (const tinygltf::Value* area = areaLightOf(model, node))
         addAreaLight(document, *area, node.name, toWorld, visible, repairs);
+    addProfileLightOf(document, node, profiles, index, toWorld, visible, repairs);
     if (node.camera >= 0 && std::size_t(node.camera) < model.cameras.size())
         addCamera(document, model.cameras[std::size_t(node.camera)], node.name, toWorld, repairs);
 }

@@ -296,8 +296,8 @@ static void addSkinned(NodeReader& reader, std::size_t index, const glm::dvec3& 
 }
 
 Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf& meshes,
-                      std::span<const SkinPose> skins, std::span<const Mesh> placed,
-                      GltfRepairs& repairs) {
+                      std::span<const SkinPose> skins, std::span<const ProfileRef> profiles,
+                      std::span<const Mesh> placed, GltfRepairs& repairs) {
     const Result<std::vector<int>> parents = parentsOf(model);
     if (!parents)
         return tl::make_unexpected(parents.error());
@@ -333,8 +333,8 @@ Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf
     Placements placements(document);
     for (const int node : visited) {
         const auto n = std::size_t(node);
-        addLightAndCamera(document, model, n, glm::mat4(placements.of(reader.ids[n]).toWorld),
-                          !hidden[n], repairs);
+        addLightAndCamera(document, model, profiles, n,
+                          glm::mat4(placements.of(reader.ids[n]).toWorld), !hidden[n], repairs);
     }
     return {};
 }

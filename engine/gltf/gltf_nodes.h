@@ -28,10 +28,10 @@ struct MeshesOfGltf {
 /// Adds the nodes of the default scene with their lights and cameras, and sets the document's
 /// origin from where the nodes place `placed`, the meshes of Assets. Fails on cycles and on nodes
 /// with two parents.
-/// `skins` are per node.
+/// `skins` are per node, `profiles` per light of EXT_lights_ies.
 Result<void> addNodes(Document& document, const tinygltf::Model& model, const MeshesOfGltf& meshes,
-                      std::span<const SkinPose> skins, std::span<const Mesh> placed,
-                      GltfRepairs& repairs);
+                      std::span<const SkinPose> skins, std::span<const ProfileRef> profiles,
+                      std::span<const Mesh> placed, GltfRepairs& repairs);
 
 /// Decomposes an affine matrix. If that is not possible exactly (shear, a scale of 0), stores the
 /// nearest Transform and reports a repair. Returns false if a scale is 0, so that nothing under the

@@ -56,7 +56,8 @@ double aboutPower(const Scene& scene, const Light& light) {
         return strength * Beam(scene.bounds, light.direction).area();
     case LightKind::Point:
     case LightKind::Spot:
-        return strength * solidAngle(light);
+        return strength *
+               (profileOf(light) ? profileSolidAngle(*profileOf(light)) : solidAngle(light));
     case LightKind::Rectangle:
         return strength * double(lightRectangle(light).area) * glm::pi<double>();
     }

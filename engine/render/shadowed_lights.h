@@ -14,7 +14,7 @@ inline constexpr std::uint32_t kMaxShadowLayers = 32;
 /// Lights with their shadow maps on the GPU, as the viewport's shaders read them. The handles
 /// belong to whoever returned this struct.
 struct ShadowedLights {
-    VkBuffer lights = VK_NULL_HANDLE;      ///< array of shared::GpuLight
+    VkBuffer lights = VK_NULL_HANDLE;      ///< array of shared::GpuLight, then values of profiles
     VkBuffer shadowViews = VK_NULL_HANDLE; ///< array of shared::GpuShadowView
     VkImageView atlas = VK_NULL_HANDLE;    ///< depth layers, in SHADER_READ_ONLY_OPTIMAL
     VkSampler sampler = VK_NULL_HANDLE;    ///< nearest

@@ -5,6 +5,7 @@
 #include "engine/scene/mesh/input_hash.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 
 namespace limn {
@@ -57,13 +58,21 @@ const char* sourcesLeftOut(const Scene& scene, const OtherSources& taken) {
         !taken.emitters && std::ranges::any_of(scene.instances, [&](const Instance& instance) {
             return emits(scene.materialOf(instance));
         });
-    if (sky && emitters)
-        return "this technique leaves out the light of the sky and of emissive surfaces";
-    if (sky)
-        return "this technique leaves out the light of the sky";
-    if (emitters)
-        return "this technique leaves out the light of emissive surfaces";
-    return nullptr;
+    const bool profiles = !taken.profiles && std::ranges::any_of(scene.lights, [](const Light& l) {
+        return shines(l) && profileOf(l);
+    });
+    static constexpr std::array<const char*, 8> kLacks = {
+        nullptr,
+        "this technique leaves out the light of the sky",
+        "this technique leaves out the light of emissive surfaces",
+        "this technique leaves out the light of the sky and of emissive surfaces",
+        "on this device, this technique spreads the light of IES profiles evenly",
+        "this technique leaves out the light of the sky and spreads that of IES profiles evenly",
+        "this technique leaves out the light of emissive surfaces and spreads that of IES profiles "
+        "evenly",
+        "this technique leaves out the light of the sky and of emissive surfaces, and spreads that "
+        "of IES profiles evenly"};
+    return kLacks[std::size_t(sky) + 2 * std::size_t(emitters) + 4 * std::size_t(profiles)];
 }
 
 } // namespace limn

@@ -42,6 +42,7 @@ std::vector<RsmSource> rsmSourcesOf(const Scene& scene);
 /// What else than its lights a technique takes light from.
 struct OtherSources {
     bool emitters = false, sky = false;
+    bool profiles = true; ///< of lights; otherwise their flux is spread evenly
 };
 
 /// LightingReport::lacks of a technique that takes light from `taken`: which sources of the scene's

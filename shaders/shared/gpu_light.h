@@ -37,7 +37,10 @@ struct GpuLight {
     vec3 direction; uint kind;          // unit, the way light travels; LIGHT_*
     vec3 strength;  float spotScale;    // colour times lux, cd or nits; 1 / (cos inner - cos outer)
     float cosOuter; uint shadowViews; uint firstView; float halfHeight; // m
-    vec3 halfWidth; uint cascades; // m; of a rectangle, to the middle of an edge; cascade views, which follow the others
+    vec3 halfWidth; uint cascades; // m; of a rectangle, to the middle of an edge; with a profile, unit, at 0 degrees;
+                                   // cascade views, which follow the others
+    uint profile, profileSize; float firstVertical, lastVertical; // where its values begin in the buffer of all lights
+                                   // [floats], 0: none; rows, from bit 16 on columns; degrees
 };
 
 /// A shadow map: a tile of one layer of the atlas.
@@ -52,7 +55,7 @@ struct GpuShadowView {
 // clang-format on
 
 #ifdef __cplusplus
-static_assert(sizeof(GpuLight) == 80);
+static_assert(sizeof(GpuLight) == 96);
 static_assert(sizeof(GpuShadowView) == 112);
 } // namespace limn::shared
 #endif

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Light that arrives from a GpuLight. The including shader must declare shadowViews[] and shadowAtlas.
+// Light that arrives from a GpuLight. The including shader must declare shadowViews[], shadowAtlas and
+// profiles[].
+#include "shaders/shared/light_profile.glsl"
 
 // Index of that one of the light's six views that looks from the light to the point.
 uint cubeFace(vec3 fromLight) {
@@ -106,5 +108,6 @@ vec3 lightIrradiance(GpuLight light, vec3 p, out vec3 toLight) {
                               0.0, 1.0);
         window *= t * t;
     }
+    window *= profileShare(light, -toLight);
     return min(light.strength * (window / max(d2, 1e-16)), LIGHT_MOST_IRRADIANCE);
 }

@@ -14,6 +14,7 @@ layout(constant_id = 0) const uint kView = VIEW_LIT;
 
 layout(set = 0, binding = FRAME_BLOCK) uniform FrameBlock { GpuFrame frame; };
 layout(set = 0, binding = FRAME_LIGHTS, std430) readonly buffer Lights { GpuLight lights[]; };
+layout(set = 0, binding = FRAME_LIGHTS, std430) readonly buffer Profiles { float profiles[]; }; // after the lights
 layout(set = 0, binding = FRAME_SHADOW_VIEWS, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
 layout(set = 0, binding = FRAME_SHADOW_ATLAS) uniform sampler2DArray shadowAtlas;
 

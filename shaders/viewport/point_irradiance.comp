@@ -15,6 +15,7 @@ layout(constant_id = 1) const uint kStride = 2; // vec4s of a point: its positio
 layout(constant_id = 2) const uint kTogether = 1; // points whose mean is one irradiance
 
 layout(binding = 0, std430) readonly buffer Lights { GpuLight lights[]; };
+layout(binding = 0, std430) readonly buffer Profiles { float profiles[]; }; // after the lights
 layout(binding = 1, std430) readonly buffer ShadowViews { GpuShadowView shadowViews[]; };
 layout(binding = 2) uniform sampler2DArray shadowAtlas;
 layout(binding = 3, std430) buffer Unit { float unit[]; }; // places[k] * irradiances + irradiance

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // node scenes.mjs OUT [SCENE...]: exports whole scenes to three.js, Babylon.js, PlayCanvas, Godot and Blender, renders their bounced light
-// there, and the whole of them with lamps and sky, beside `limn render` of the same camera, and prints the nRMSE. Pictures stay in
-// OUT/scenes/SCENE.
+// there, and the whole of them with lamps and sky, beside gathered pictures of `limn render` from the same camera, and prints the nRMSE.
+// Pictures stay in OUT/scenes/SCENE.
 import { execFileSync, spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
@@ -13,9 +13,11 @@ import { pack } from './godot/pack.mjs';
 const here = path.dirname(fileURLToPath(import.meta.url)), root = path.join(here, '../..');
 const shared = path.join(root, '../shared/scenes'), width = 384, height = 288;
 const known = {
-    cornell: { file: 'cornell', bake: [] }, atrium: { file: 'atrium', bake: [] },
-    sponza: { file: path.join(shared, 'sponza-crytek'), bake: ['--preset', 'draft'], lights: ['--light', 'sun dir=-0.2,-1,0.1 lux=20'],
+    cornell: { file: 'cornell', harmonics: true }, atrium: { file: 'atrium', harmonics: true },
+    sponza: { file: path.join(shared, 'sponza-crytek'), lights: ['--light', 'sun dir=-0.2,-1,0.1 lux=20'],
         view: { eye: [-9, 2, -0.3], target: [5, 3, -0.3], fov: 60 } },
+    'living-room': { file: path.join(shared, 'living-room'), lights: ['--sky', path.join(shared, 'living-room/Sky_19.exr')] },
+    staircase: { file: path.join(shared, 'staircase') },
 };
 const [out, ...chosen] = process.argv.slice(2);
 const limn = (...args) => execFileSync(path.join(root, 'build/release/limn'), args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'], maxBuffer: 1 << 26 });
@@ -58,7 +60,7 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
     const folder = path.resolve(out, 'scenes', name), scene = [file, ...(known[name].lights ?? [])];
     fs.mkdirSync(folder, { recursive: true });
     const bake = path.join(folder, 'light.limnbake');
-    if (!fs.existsSync(bake)) limn('bake', ...scene, ...known[name].bake, '-o', bake);
+    if (!fs.existsSync(bake)) limn('bake', ...scene, '-o', bake);
     const { view: from } = known[name];
     const picture = (base64, stem) => { // of floats
         const bytes = Buffer.from(base64, 'base64'), rgb = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
@@ -67,13 +69,14 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
         return file;
     };
     const eye = from ? ['--eye', from.eye.join(), '--target', from.target.join(), '--fov', from.fov] : [];
-    for (const view of ['irradiance', 'indirect', 'lit']) for (const end of ['exr', 'png'])
-        limn('render', ...scene, '--bake', bake, '--view', view, '--near-rays', 0, '--gather-rays', 0, '--width', width, '--height', height, ...eye,
-            ...(end === 'png' ? ['--tonemap', 'none'] : []), '-o', path.join(folder, `limn-${view}.${end}`));
+    for (const file of ['irradiance.exr', 'indirect.exr', 'lit.exr', 'lit.png'])
+        limn('render', ...scene, '--bake', bake, '--view', path.parse(file).name, '--width', width, '--height', height, ...eye,
+            ...(file.endsWith('.png') ? ['--tonemap', 'none'] : []), '-o', path.join(folder, `limn-${file}`));
     for (const [engine, view, options] of [
         ['three', 'irradiance', ['--encoding', 'ktx2-half']], ['three', 'irradiance', ['--lightmap-bands', 3]], ['babylon', 'indirect', []],
         ['playcanvas', null, []], ['godot', 'irradiance', []], ['godot', 'irradiance', ['--lightmap-bands', 2]]]) {
-        const { files } = JSON.parse(limn('export', ...scene, '--bake', bake, '--format', engine, ...options, '--json', '-o', path.join(folder, `${engine}.gltf`)));
+        if (options.includes('--lightmap-bands') && !known[name].harmonics) continue;
+        const { files } = JSON.parse(limn('export', ...scene, '--bake', bake, '--format', engine, ...options, ...(engine === 'godot' ? [] : ['--paths', 0]), '--json', '-o', path.join(folder, `${engine}.gltf`)));
         if (engine === 'godot') packGodot(folder, files, from);
         const url = `${address}/scene-${engine}.html?folder=/scenes/${name}&width=${width}&height=${height}${from ? `&from=${JSON.stringify(from)}` : ''}`;
         const result = await visit(browser, url, path.join(folder, `${engine}.png`), { timeout: 600000, keep: true, width, height });
@@ -86,7 +89,7 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
         if (result.rgb) report(name, consumer, view, compare(picture(result.rgb, `${engine}-${view}`), path.join(folder, `limn-${view}.exr`)));
         report(name, consumer, 'lit', compare(picture(result.whole, `${engine}-lit`), path.join(folder, 'limn-lit.exr')));
     }
-    limn('export', ...scene, '--bake', bake, '--format', 'blender', '-o', path.join(folder, 'blender.gltf'));
+    limn('export', ...scene, '--bake', bake, '--format', 'blender', '--paths', 0, '-o', path.join(folder, 'blender.gltf'));
     try {
         console.log(`${name}: ${execFileSync('node', [path.join(here, 'validate.mjs'), path.join(folder, 'three.gltf')], { encoding: 'utf8' }).trim()}`);
     } catch (e) {

@@ -77,7 +77,10 @@ TEST(DocumentJson, AnErrorNamesTheFieldByItsPath) {
     node.meshes = {1, 2};
     addObject(document, node);
     addObject(document, Material{});
-    addObject(document, Light{});
+    Light light;
+    light.profile = {std::make_shared<const LightProfile>(
+        LightProfile{.name = "Lamp", .rows = 2, .columns = 1, .share = {1, 0.5f}})};
+    addObject(document, light);
     addObject(document, Camera{});
     addObject(document, BakeSettings{});
     const Json good = Json::parse(documentToJson(document));
@@ -95,6 +98,16 @@ TEST(DocumentJson, AnErrorNamesTheFieldByItsPath) {
          "objects[2].light.kind: not one of directional, point, spot"},
         {"/objects/2/light/enabled", 1, "objects[2].light.enabled: not true or false"},
         {"/objects/2/light/strength", nullptr, "objects[2].light.strength: not a number"},
+        {"/objects/2/light/profile", 1, "objects[2].light.profile: not an object"},
+        {"/objects/2/light/profile/share", {1}, "objects[2].light.profile.share: 1 numbers"},
+        {"/objects/2/light/profile/share/1", 2, "objects[2].light.profile.share: a number"},
+        {"/objects/2/light/profile/share/1", "x",
+         "objects[2].light.profile.share[1]: not a number"},
+        {"/objects/2/light/profile/rows", 1, "objects[2].light.profile.rows"},
+        {"/objects/2/light/profile/columns", 4000000000, "objects[2].light.profile.columns"},
+        {"/objects/2/light/profile/lastVertical", 0, "objects[2].light.profile.lastVertical"},
+        {"/objects/2/light/profile/peak", 0, "objects[2].light.profile.peak"},
+        {"/objects/2/light/profile/lamp", 1, "objects[2].light.profile.lamp: unknown field"},
         {"/objects/2/light/direction", {0, 0, 2}, "objects[2].light.direction: not of unit length"},
         {"/objects/0/node/name", 3, "objects[0].node.name: not a string"},
         {"/objects/0/node/meshes/1", -1, "objects[0].node.meshes[1]: not an integer >= 0"},

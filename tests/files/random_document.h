@@ -92,6 +92,18 @@ private:
         t.nearest = coin();
         return t;
     }
+    ProfileRef profile() {
+        LightProfile p;
+        p.name = text();
+        p.peak = std::max(light(), 1e-30f);
+        p.firstVertical = 90 * unit();
+        p.lastVertical = 91 + 89 * unit();
+        p.rows = 2 + below(4);
+        p.columns = 1 + below(4);
+        for (std::uint32_t i = 0; i < p.rows * p.columns; ++i)
+            p.share.push_back(unit());
+        return {std::make_shared<const LightProfile>(std::move(p))};
+    }
     Object other() {
         switch (below(7)) {
         case 0: {
@@ -129,6 +141,8 @@ private:
             l.outerAngle = 0.71f + unit() * 0.8f;
             l.size = {0.001f + unit(), 1e6f * (0.001f + 0.99f * unit())};
             l.roll = number();
+            if (below(4) == 0)
+                l.profile = profile();
             return l;
         }
         case 2: {

@@ -392,6 +392,16 @@ Bake smallBakeOf(const Scene& scene, LinkStorage storage) {
 }
 
 /// Valid files to which bake_target.cpp and transport_target.cpp make the changes of their inputs.
+void writeLamps(const auto& write) {
+    const std::string head = "TILT=NONE\n1 1000 1 ", tail = " 1 2 0 0 0\n1 1 40\n0 45 90\n";
+    write("even.ies", "IESNA:LM-63-1995\n[LUMINAIRE] Lamp\n" + head + "3 1" + tail + "0\n9 5 0\n");
+    write("quarter.ies", head + "3 2" + tail + "0 90\n9 5 0\n9 6 1\n");
+    write("half.ies", "IESNA91\n" + head + "3 3" + tail + "0 90 180\n9,5,0\n9,6,1\n9,7,2\n");
+    write("turned.ies", head + "3 2" + tail + "90 270\n9 5 0\n9 6 1\n");
+    write("around.ies",
+          "IES:LM-63-2019\n" + head + "3 3" + tail + "0 120 240\n9 5 0\n9 6 1\n9 7 2\n");
+}
+
 void writeStarts(const TemporaryFolder& folder, const auto& write) {
     for (const auto& [name, storage] : {std::pair("cones.bake", LinkStorage::Rtp),
                                         std::pair("harmonics.bake", LinkStorage::Sh)}) {
@@ -419,6 +429,7 @@ int main(int argc, char** argv) {
     };
     writeImages(temporary, into("image"));
     writeFloatImages(temporary, into("float_image"));
+    writeLamps(into("ies"));
     writeScenes(temporary, into("gltf"));
     writeProjects(temporary, into("project"));
     writeChanges(temporary, into("bake"));

@@ -285,6 +285,48 @@ TEST(GltfKinds, AreaLightsAreRectangles) {
     EXPECT_EQ(flat.lights[1].strength, 1000);
 }
 
+/// Photometric files shine along -Z of their node, and their horizontal angle 0 is its X.
+TEST(GltfKinds, PhotometricFilesAreProfilesOfPoints) {
+    GltfBuilder b = triangleScene();
+    const std::string file = "data:application/x-ies-lm-63,TILT=NONE%0A1 -1 2 2 5 1 2 0 0 0%0A1 1 9"
+                             "%0A0 90%0A0 90 180 270 360%0A"
+                             "8 50 8 0 8 0 8 0 8 50";
+    b.json["extensions"]["EXT_lights_ies"]["lights"] = {
+        {{"uri", file}, {"name", "Lamp"}}, {{"uri", "missing.ies"}}, {{"bufferView", 999}}};
+    const auto light = [](int index, double multiplier) {
+        return nlohmann::json{
+            {"EXT_lights_ies",
+             {{"light", index}, {"multiplier", multiplier}, {"color", {1, 0.5, 0.25}}}}};
+    };
+    const float h = std::sqrt(0.5f);
+    b.json["nodes"].push_back({{"translation", {1, 2, 3}},
+                               {"rotation", {0, h, 0, h}}, // -z becomes -x, and x becomes -z
+                               {"scale", {5, 5, 5}},
+                               {"extensions", light(0, 0.5)}});
+    for (const int missing : {1, 2, 3})
+        b.json["nodes"].push_back({{"extensions", light(missing, 1)}});
+    b.json["scenes"][0]["nodes"] = {0, 1, 2, 3, 4};
+    const Result<ImportedScene> scene = b.import();
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Scene flat = flatten(scene->document, scene->assets);
+    ASSERT_EQ(flat.lights.size(), 1U);
+    const Light& lamp = flat.lights[0];
+    ASSERT_TRUE(lamp.profile);
+    EXPECT_EQ(lamp.color, glm::vec3(1, 0.5f, 0.25f));
+    const auto towards = [&](glm::vec3 d) {
+        return sampleLight(lamp, lamp.position + 2.f * d).irradiance.x * 4;
+    };
+    EXPECT_NEAR(towards({-1, 0, 0}), 8, 1e-3f);
+    EXPECT_NEAR(towards({0, 0, -1}), 50, 1e-3f);
+    EXPECT_NEAR(towards({0, 0, 1}), 0, 1e-3f);
+    EXPECT_NEAR(towards({0, 1, 0}), 0, 1e-3f);
+    EXPECT_EQ(towards({1, 0, 0}), 0);
+    for (const char* defect : {"EXT_lights_ies.lights[1]", "EXT_lights_ies.lights[2]", "nodes[4]"})
+        EXPECT_TRUE(std::ranges::any_of(scene->repairs, [&](const std::string& repair) {
+            return repair.find(defect) != std::string::npos;
+        })) << defect;
+}
+
 /// A scale of 0 along one axis flattens, whatever stands below the node.
 TEST(GltfKinds, AScaleOfZeroAlongOneAxisFlattens) {
     GltfBuilder b;

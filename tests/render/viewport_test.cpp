@@ -89,6 +89,51 @@ TEST_F(ViewportViews, DirectLightOfEveryKindIsThatOfSampleLight) {
     }
 }
 
+/// A profile that differs in all directions, over vertical angles of 10 to 170 degrees.
+ProfileRef lopsidedProfile(std::uint32_t columns) {
+    LightProfile p{.firstVertical = 10, .lastVertical = 170, .rows = 33, .columns = columns};
+    for (std::uint32_t i = 0; i < p.rows * p.columns; ++i)
+        p.share.push_back(0.5f + 0.5f * std::sin(0.37f * float(i)));
+    return {std::make_shared<const LightProfile>(p)};
+}
+
+TEST_F(ViewportViews, DirectLightOfAProfileIsThatOfSampleLight) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int round = 0; round < 12; ++round) {
+        simple::SceneBuilder b = plane();
+        for (int k = 0; k < 3; ++k) { // whose values follow each other; the first has none
+            Light light;
+            light.kind = LightKind(1 + round % 2);
+            light.position = {unit(random) - 0.5f, 0.5f + unit(random), unit(random) - 0.5f};
+            light.direction =
+                glm::normalize(glm::vec3(unit(random) - 0.5f, -1, unit(random) - 0.5f));
+            light.strength = 1 + 9 * unit(random);
+            light.roll = 6 * unit(random);
+            light.innerAngle = 0.5f;
+            light.outerAngle = 1.2f;
+            if (k > 0)
+                light.profile = lopsidedProfile(k == 1 ? 1 : 16);
+            b.scene.lights.push_back(light);
+        }
+        const ImageF image = draw(b.build(), View::Direct);
+        float darkest = 1e30f, brightest = 0;
+        for (std::uint32_t y = 0; y < 32; y += 3)
+            for (std::uint32_t x = 0; x < 32; x += 3) {
+                float E = 0;
+                for (const Light& light : b.scene.lights) {
+                    const LightSample s = sampleLight(light, planePoint(options, x, y));
+                    E += s.irradiance.x * std::max(s.toLight.y, 0.f);
+                }
+                darkest = std::min(darkest, E);
+                brightest = std::max(brightest, E);
+                // Where a profile or a cone ends, what rounding moves is small beside 30 cd.
+                expectNear(pixel(image, x, y), glm::vec3(0.2f, 0.4f, 0.8f) * E / kPi, 3e-3f);
+            }
+        EXPECT_GT(brightest, 1.5f * darkest); // something is tested
+    }
+}
+
 TEST_F(ViewportViews, DirectLightOfARectangleIsThatOfRectangleIrradiance) {
     std::mt19937 random(9);
     std::uniform_real_distribution<float> unit(0, 1);

@@ -11,7 +11,7 @@ namespace limn::render {
 /// The lights that shine and their shadow views, as shaders read them. Mapped buffers that only
 /// grow; a replaced one is retired.
 struct LightTable {
-    gpu::Buffer lights;                ///< array of shared::GpuLight
+    gpu::Buffer lights;                ///< array of shared::GpuLight, then values of profiles
     gpu::Buffer shadowViews;           ///< array of shared::GpuShadowView
     std::uint32_t count = 0;           ///< lights
     std::vector<std::uint64_t> shapes; ///< as ShadowedLights::shapes

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/rsm/gpu/rsm_maps.h"
 
+#include "engine/scene/light/photometry.h"
+#include "engine/scene/light/unit_light.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -83,9 +86,11 @@ shared::GpuRsmView forShaders(const Light& light, const RsmView& view, float uni
 
 std::vector<DrawnRsmView> drawnRsmViews(const Light& light, const Bounds& bounds,
                                         std::uint32_t size) {
-    const std::vector<RsmView> views =
-        rsmViews(light, bounds, size,
-                 [&](glm::vec3 p, glm::vec3 normal) { return clearOf(p, normal, bounds); });
+    std::vector<RsmView> views = rsmViews(light, bounds, size, [&](glm::vec3 p, glm::vec3 normal) {
+        return clearOf(p, normal, bounds);
+    });
+    for (RsmView& view : views) // shaders know no profiles
+        view.power *= withoutProfile(unitLight(light)).strength;
     std::vector<DrawnRsmView> drawn;
     for (std::uint32_t k = 0; k < views.size(); ++k) {
         RsmView view = views[k];

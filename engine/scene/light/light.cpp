@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/light/light.h"
 
+#include "engine/scene/light/rectangle_light.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +19,18 @@ static float spotFalloff(const Light& light, glm::vec3 toLight) {
     const float t = (glm::dot(-toLight, light.direction) - cosOuter) / (cosInner - cosOuter);
     const float clamped = std::clamp(t, 0.f, 1.f);
     return clamped * clamped;
+}
+
+const LightProfile* profileOf(const Light& light) {
+    return light.kind == LightKind::Point || light.kind == LightKind::Spot
+               ? light.profile.profile.get()
+               : nullptr;
+}
+
+glm::mat3 profileAxes(const Light& light) {
+    Light unit = {.direction = light.direction, .size = glm::vec2(2), .roll = light.roll};
+    const LightRectangle rectangle = lightRectangle(unit);
+    return {rectangle.halfWidth, rectangle.halfHeight, light.direction};
 }
 
 LightSample sampleLight(const Light& light, glm::vec3 p) {
@@ -43,6 +57,8 @@ LightSample sampleLight(const Light& light, glm::vec3 p) {
     }
     if (light.kind == LightKind::Spot)
         window *= spotFalloff(light, s.toLight);
+    if (const LightProfile* profile = profileOf(light); profile && window > 0)
+        window *= profileShare(*profile, profileAxes(light), -s.toLight);
     const float intensity = light.strength * window;
     s.irradiance =
         glm::min(light.color * (intensity / std::max(d2, kNearest * kNearest)), kMaxIrradiance);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/scene/light/light_profile.h"
+
 #include <cstdint>
 #include <string>
 
@@ -28,20 +30,30 @@ struct Light {
     std::string name = "Light";
     LightKind kind = LightKind::Point;
     bool enabled = true;
-    glm::vec3 position{0};         ///< [m]; Rectangle: of its middle; ignored by Directional
-    glm::vec3 direction{0, -1, 0}; ///< unit, the way light travels; ignored by Point
-    glm::vec3 color{1};            ///< linear Rec. 709, [0, kMaxLight]
-    float strength = 100;          ///< Directional: irradiance [lux]. Point, Spot: intensity [cd].
-                                   ///< Rectangle: radiance [nits]. [0, kMaxLight]
-    float range = 0;               ///< [m]; 0: unlimited. Window max(min(1-(d/r)^4, 1), 0) of
-                                   ///< KHR_lights_punctual. Point, Spot
-    float innerAngle = 0;          ///< Spot: half-angle of full strength [rad]
+    glm::vec3 position{0}; ///< [m]; Rectangle: of its middle; ignored by Directional
+    glm::vec3 direction{0, -1,
+                        0}; ///< unit, the way light travels; ignored by Point without profile
+    glm::vec3 color{1};     ///< linear Rec. 709, [0, kMaxLight]
+    float strength = 100;   ///< Directional: irradiance [lux]. Point, Spot: intensity [cd],
+                            ///< with a profile where that is largest.
+                            ///< Rectangle: radiance [nits]. [0, kMaxLight]
+    float range = 0;        ///< [m]; 0: unlimited. Window max(min(1-(d/r)^4, 1), 0) of
+                            ///< KHR_lights_punctual. Point, Spot
+    float innerAngle = 0;   ///< Spot: half-angle of full strength [rad]
     float outerAngle = 0.7853982f; ///< Spot: half-angle where it ends [rad], (innerAngle, pi/2]
     glm::vec2 size{1};             ///< Rectangle: width and height [m]
-    float roll = 0;                ///< Rectangle: turn about `direction`, from LightRectangle [rad]
+    float roll = 0;                ///< Rectangle, profile: turn about `direction`, from
+                                   ///< LightRectangle [rad]
+    ProfileRef profile;            ///< Point, Spot: times the cone; none: the same to all sides
 
     bool operator==(const Light&) const = default;
 };
+
+/// The light's profile if its kind has one, else null.
+const LightProfile* profileOf(const Light& light);
+
+/// Unit axes of the profile in the world, for profileShare(): those of lightRectangle().
+glm::mat3 profileAxes(const Light& light);
 
 /// Unshadowed light from a directional, point or spot light at a point.
 struct LightSample {

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/light/light_spec.h"
 
+#include "engine/scene/light/ies_file.h"
+#include "engine/scene/light/photometry.h"
 #include "engine/scene/origin.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -22,6 +27,22 @@ static std::vector<std::string_view> split(std::string_view text, char separator
         begin = end + 1;
     }
     return parts;
+}
+
+/// The words between blanks. Quotes keep a word together, as in `ies="hall lamp.ies"`, and do not
+/// belong to it.
+static std::vector<std::string> splitWords(std::string_view text) {
+    std::vector<std::string> words(1);
+    bool quoted = false;
+    for (const char c : text)
+        if (c == '"')
+            quoted = !quoted;
+        else if (c == ' ' && !quoted)
+            words.emplace_back();
+        else
+            words.back() += c;
+    std::erase(words, "");
+    return words;
 }
 
 template <class Number = float>
@@ -59,13 +80,6 @@ static tl::unexpected<Error> tooMuchLight(std::string_view word) {
     return fail(fmt::format("'{}': may not be more than {:g}", word, kMaxLight));
 }
 
-static Result<float> parseStrength(std::string_view word, std::string_view text) {
-    Result<float> strength = parseNonNegative(word, text);
-    if (strength && *strength > kMaxLight)
-        return tooMuchLight(word);
-    return strength;
-}
-
 static Result<glm::vec3> parseColor(std::string_view word, std::string_view text) {
     Result<glm::vec3> color = parseTriple(word, text);
     if (color && (color->x < 0 || color->y < 0 || color->z < 0))
@@ -92,8 +106,27 @@ static Result<glm::vec2> parseSize(std::string_view word, std::string_view text)
     return size;
 }
 
-/// Sets the field named by a word's key, for the kinds of light that support it.
-static Result<void> applyWord(Light& light, std::string_view word, const glm::dvec3& origin) {
+namespace {
+
+/// A word whose value depends on other words: flux on the cone, for one.
+struct StrengthWord {
+    std::string_view word;
+    LightUnit unit;
+    float value = 0;
+};
+
+/// What words mean beside their light.
+struct WordContext {
+    const glm::dvec3& origin;
+    bool profiled = false; ///< one of the words names a profile, which others turn
+    std::optional<StrengthWord> strength;
+};
+
+} // namespace
+
+/// Sets the field named by a word's key, for the kinds of light that support it. A strength is put
+/// off to the context.
+static Result<void> applyWord(Light& light, std::string_view word, WordContext& context) {
     const std::size_t equals = word.find('=');
     if (equals == std::string_view::npos)
         return fail(fmt::format("'{}': expected key=value", word));
@@ -112,24 +145,42 @@ static Result<void> applyWord(Light& light, std::string_view word, const glm::dv
     }
     if (key == "color")
         return store(light.color, parseColor(word, text));
-    if ((key == "lux" && sun) || (key == "cd" && !sun && !rect) || (key == "nits" && rect))
-        return store(light.strength, parseStrength(word, text));
+    if (key == "kelvin") {
+        const Result<float> kelvin = parseNumber(word, text);
+        if (kelvin && (*kelvin < kMinKelvin || *kelvin > kMaxKelvin))
+            return fail(fmt::format("'{}': not {} to {} K", word, kMinKelvin, kMaxKelvin));
+        return store(light.color, kelvin.map(blackbodyColor));
+    }
+    if (const std::optional<LightUnit> unit = unitNamed(key)) {
+        const Result<float> value = parseNumber(word, text);
+        if (!value)
+            return tl::make_unexpected(value.error());
+        context.strength = {word, *unit, *value};
+        return {};
+    }
+    if (key == "ies" && !sun && !rect) {
+        const Result<PhotometricFile> file = readIes(std::string(text));
+        if (!file)
+            return fail(fmt::format("'{}': {}", word, file.error().message));
+        light.profile = {std::make_shared<const LightProfile>(file->profile)};
+        return {};
+    }
     if (key == "pos" && !sun) {
         glm::dvec3 position(0);
         const Result<void> stored = store(position, parseTriple<double>(word, text));
-        light.position = toWorld(origin, position);
+        light.position = toWorld(context.origin, position);
         return stored;
     }
     if (key == "range" && !sun && !rect)
         return store(light.range, parseNonNegative(word, text));
     if (key == "size" && rect)
         return store(light.size, parseSize(word, text));
-    if (key == "roll" && rect) {
+    if (key == "roll" && (rect || context.profiled)) {
         const Result<void> stored = store(light.roll, parseNumber(word, text));
         light.roll = glm::radians(light.roll);
         return stored;
     }
-    if (key == "dir" && (sun || spot || rect)) {
+    if (key == "dir" && (light.kind != LightKind::Point || context.profiled)) {
         const Result<glm::vec3> direction = parseTriple(word, text);
         if (!direction)
             return tl::make_unexpected(direction.error());
@@ -153,10 +204,12 @@ static Result<void> applyWord(Light& light, std::string_view word, const glm::dv
 
 Result<Light> parseLight(std::string_view spec, const glm::dvec3& origin) {
     Light light;
+    const std::vector<std::string> words = splitWords(spec);
+    WordContext context{origin, std::ranges::any_of(words, [](const std::string& word) {
+                            return word.starts_with("ies=");
+                        })};
     bool first = true;
-    for (const std::string_view word : split(spec, ' ')) {
-        if (word.empty())
-            continue;
+    for (const std::string& word : words) {
         if (first) {
             if (word == "sun")
                 light.kind = LightKind::Directional, light.name = "Sun";
@@ -174,13 +227,22 @@ Result<Light> parseLight(std::string_view spec, const glm::dvec3& origin) {
             first = false;
             continue;
         }
-        if (const Result<void> applied = applyWord(light, word, origin); !applied)
+        if (const Result<void> applied = applyWord(light, word, context); !applied)
             return fail(fmt::format("light '{}': {}", spec, applied.error().message));
     }
     if (first)
         return fail("light: empty; expected sun, point, spot or rect");
     if (light.kind == LightKind::Spot && !(light.innerAngle < light.outerAngle))
         return fail(fmt::format("light '{}': inner must be less than outer", spec));
+    if (light.profile)
+        light.strength = light.profile->peak;
+    if (const auto& strength = context.strength) {
+        const Result<float> converted = strengthFrom(strength->value, strength->unit, light);
+        if (!converted)
+            return fail(fmt::format("light '{}': '{}': {}", spec, strength->word,
+                                    converted.error().message));
+        light.strength = *converted;
+    }
     return light;
 }
 

@@ -2,6 +2,7 @@
 #include "engine/techniques/illuminance/transport/transport_file.h"
 
 #include "engine/scene/light/light_parts.h"
+#include "engine/scene/light/photometry.h"
 #include "engine/techniques/illuminance/format/bake_defect.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
 #include "engine/techniques/illuminance/transport/occluder_tree.h"
@@ -122,7 +123,7 @@ static_assert(sizeof(LightRecord) == 80);
 std::vector<LightRecord> lightRecords(const Scene& scene) {
     std::vector<LightRecord> records;
     for (std::uint32_t k = 0; k < scene.lights.size(); ++k) {
-        const Light& whole = scene.lights[k];
+        const Light whole = withoutProfile(scene.lights[k]);
         std::vector<Light> parts = {whole};
         if (whole.kind == LightKind::Rectangle)
             parts = partsBetweenWalls(whole, scene);

@@ -35,7 +35,7 @@ LightingReport DeviceSkin::update(const LightingInput& input, const Progress& pr
     if (m_pass)
         m_viewport.setIndirect(m_pass);
     describe(cost, report);
-    report.lacks = sourcesLeftOut(input.scene, {});
+    report.lacks = sourcesLeftOut(input.scene, {.profiles = false});
     report.totalMs = whole.lap();
     return report;
 }

@@ -86,7 +86,9 @@ const TraceScene& DevicePhotons::traceOf(const LightingInput& input) {
 PhotonMap DevicePhotons::traceLight(const LightingInput& input, const Light& light,
                                     const PathSettings& settings, const Progress& progress) {
     const std::uint32_t side = photonMapSide(light, input.scene.bounds, settings.photons);
-    const auto bounces = m_bounces.bounce(input.scene, light, side);
+    const auto bounces = profileOf(light) // maps that the device draws know no profiles
+                             ? std::nullopt
+                             : m_bounces.bounce(input.scene, light, side);
     const PhotonScene scene{traceOf(input), input.scene, settings};
     if (!bounces)
         return limn::traceLight(scene, light, progress);

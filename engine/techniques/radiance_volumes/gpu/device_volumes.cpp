@@ -34,7 +34,7 @@ LightingReport DeviceVolumes::update(const LightingInput& input, const Progress&
     if (m_pass)
         m_viewport.setIndirect(m_pass);
     describe(cost, report);
-    report.lacks = m_lacks ? m_lacks : sourcesLeftOut(input.scene, {});
+    report.lacks = m_lacks ? m_lacks : sourcesLeftOut(input.scene, {.profiles = false});
     report.totalMs = whole.lap();
     return report;
 }
