@@ -72,6 +72,12 @@ struct EulerEdit {
 };
 
 /// Everything the panels share. Owned by the session; no globals, no back pointers.
+/// What is typed into the inspector's field that takes a light's strength with any unit.
+struct TypedLight {
+    std::string text, problem; ///< why the text means nothing; empty: it does
+    ObjectId light = 0;        ///< that it is typed for
+};
+
 struct EditorState {
     Document document;
     std::shared_ptr<const Assets> assets; ///< never null
@@ -84,8 +90,9 @@ struct EditorState {
     ObjectsById saved;               ///< the objects as they are in the file
     std::vector<ObjectId> selection; ///< last element is the active object
     Clipboard clipboard;             ///< outlives the document
-    std::vector<ObjectId> isolated;  ///< nodes that toggleIsolated() hid
-    std::optional<Gesture> gesture;  ///< edit in progress: in the document, not yet in history
+    TypedLight typedLight;
+    std::vector<ObjectId> isolated; ///< nodes that toggleIsolated() hid
+    std::optional<Gesture> gesture; ///< edit in progress: in the document, not yet in history
 
     ViewState view;
     OverlayState overlay;

@@ -13,7 +13,8 @@ struct Request {
         NewFromScene,
         Open,
         OpenSkyImage,
-        AddFile, ///< a glTF below a group, a shape at `place`, or a texture of `object`
+        OpenProfile, ///< a photometric file, for the light `object`
+        AddFile,     ///< a glTF below a group, a shape at `place`, or a texture of `object`
         Save,
         Bake,
         BakeToError,   ///< EditorState::bakeError
@@ -28,11 +29,12 @@ struct Request {
         Screenshot,
         Quit
     } kind;
-    /// Of NewFromScene, Open, OpenSkyImage, AddFile (AssetFile::path), Save, Export, SavePictures.
+    /// Of NewFromScene, Open, OpenSkyImage, OpenProfile, AddFile (AssetFile::path), Save, Export,
+    /// SavePictures.
     std::string path;
     bool discardsChanges = false;              ///< unsaved changes are lost without asking
     Transform place = {};                      ///< of a shape, to world space
-    ObjectId object = 0;                       ///< the material that gets the texture; else 0
+    ObjectId object = 0;                       ///< the material or light that gets the file; else 0
     TextureSlot slot = TextureSlot::BaseColor; ///< which texture
 };
 

@@ -5,10 +5,12 @@
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/document/first_light.h"
 #include "editor_ui/document/muted.h"
+#include "editor_ui/document/selection.h"
 #include "editor_ui/document/solo.h"
 #include "editor_ui/jobs/editor_settings.h"
 #include "editor_ui/jobs/recent_files.h"
 #include "editor_ui/jobs/scene_changes.h"
+#include "engine/scene/find_object.h"
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
@@ -83,15 +85,26 @@ void Session::complain(std::string title, std::string text) {
     state.notice = Notice{std::move(title), std::move(text)};
 }
 
-static bool isPanorama(const std::string& path) {
+/// The extension of a file's name in lower case.
+static std::string extensionOf(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
     std::ranges::transform(extension, extension.begin(),
                            [](unsigned char c) { return char(std::tolower(c)); });
-    return extension == ".hdr" || extension == ".exr";
+    return extension;
+}
+
+static bool isPanorama(const std::string& path) {
+    return extensionOf(path) == ".hdr" || extensionOf(path) == ".exr";
+}
+
+static bool isProfile(const std::string& path) {
+    return extensionOf(path) == ".ies";
 }
 
 void Session::open(const std::string& what) {
-    if (isPanorama(what) ? m_files.openSkyImage(what) : m_files.open(what))
+    if (isProfile(what))
+        openProfile(what, activeId(state));
+    else if (isPanorama(what) ? m_files.openSkyImage(what) : m_files.open(what))
         state.loading = what;
     else
         complain("Not opened", what + ": another file is being opened or saved; try again");
@@ -100,7 +113,8 @@ void Session::open(const std::string& what) {
 void Session::handle(const Request& request) {
     const bool leaves = request.kind == Request::Kind::NewFromScene ||
                         request.kind == Request::Kind::Quit ||
-                        (request.kind == Request::Kind::Open && !isPanorama(request.path));
+                        (request.kind == Request::Kind::Open && !isPanorama(request.path) &&
+                         !isProfile(request.path));
     if (leaves && !request.discardsChanges && hasUnsavedChanges(state)) {
         state.confirm = request;
         return;
@@ -110,6 +124,9 @@ void Session::handle(const Request& request) {
     case Request::Kind::Open:
     case Request::Kind::OpenSkyImage:
         open(request.path);
+        break;
+    case Request::Kind::OpenProfile:
+        openProfile(request.path, request.object);
         break;
     case Request::Kind::AddFile:
         addFile(request);
@@ -277,6 +294,33 @@ void Session::takeSky() {
     }
     log(LogLine::Level::Info, "Opened " + (*read)->image);
     setSkyImage(state, **read);
+}
+
+void Session::openProfile(const std::string& path, ObjectId light) {
+    if (!findObjectAs<Light>(state.document, light)) {
+        complain("Not opened", path + ": select the light that gets this profile first");
+    } else if (m_files.openProfile(path)) {
+        state.loading = path;
+        m_profileFor = light;
+    } else {
+        complain("Not opened", path + ": another file is being opened or saved; try again");
+    }
+}
+
+void Session::takeProfile() {
+    auto read = m_files.takeProfile();
+    if (!read)
+        return;
+    if (!*read) {
+        complain("Not opened as an IES profile", read->error().message);
+    } else {
+        log(LogLine::Level::Info, "Opened " + state.loading);
+        if ((*read)->resampled)
+            log(LogLine::Level::Warning,
+                state.loading + ": its angles lie closer than a profile's and were interpolated");
+        setLightProfile(state, m_profileFor, (*read)->profile);
+    }
+    state.loading.clear();
 }
 
 /// Edits the document by a request whose file is in the assets.
@@ -555,6 +599,7 @@ void Session::update() {
         handle(request);
     takeOpened();
     takeSky();
+    takeProfile();
     takeAdded();
     takePictures();
     takeSaved();

@@ -78,6 +78,8 @@ private:
     void answerRecovery(Request::Kind answer);
     void keepForRecovery();
     void takeSky();
+    void openProfile(const std::string& path, ObjectId light);
+    void takeProfile();
     void addFile(const Request& request);
     void takeAdded();
     void savePictures(const std::string& path);
@@ -142,6 +144,7 @@ private:
     std::shared_ptr<const Scene> m_compared; ///< the scene that state.bake.changes speaks of
     bool m_quit = false;
     std::string m_savingTo, m_exportingTo;
+    ObjectId m_profileFor = 0; ///< the light that gets the profile that is being read
     Request m_adding{Request::Kind::AddFile}; ///< the newest one whose file was not there yet
     double m_bakeSecondsDone = 0, m_bakeSecondsRunning = 0, m_bakeSecondsAtLightEdit = 0;
     bool m_lightEdited = false; ///< since the scene was opened

@@ -75,6 +75,19 @@ void setSkyImage(EditorState& state, const Sky& image) {
     applyEdit(state, {"Sky image", {changeOfSingle(state.document, sky)}});
 }
 
+void setLightProfile(EditorState& state, ObjectId id, const LightProfile& profile) {
+    const Light* before = findObjectAs<Light>(state.document, id);
+    if (!before)
+        return;
+    commitGesture(state);
+    Light light = *before;
+    if (light.kind != LightKind::Spot)
+        light.kind = LightKind::Point;
+    light.profile = {std::make_shared<const LightProfile>(profile)};
+    light.strength = std::min(profile.peak, kMaxLight);
+    applyEdit(state, {"IES profile of " + light.name, {{id, *before, light}}});
+}
+
 void setExportSettings(EditorState& state, const ExportSettings& settings) {
     commitGesture(state);
     const Change change = changeOfSingle(state.document, settings);

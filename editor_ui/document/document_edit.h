@@ -24,6 +24,10 @@ void addLightAndSky(EditorState& state, Light light, const Sky& sky);
 /// Gives the sky the kind, the image and the panorama of `image`.
 void setSkyImage(EditorState& state, const Sky& image);
 
+/// Gives a point or spot light the profile of a photometric file and its intensity. Other lights
+/// become points.
+void setLightProfile(EditorState& state, ObjectId light, const LightProfile& profile);
+
 /// Makes `settings` those of the document. Records nothing where they are already.
 void setExportSettings(EditorState& state, const ExportSettings& settings);
 

@@ -137,6 +137,14 @@ bool FileJob::openSkyImage(std::string path) {
     });
 }
 
+bool FileJob::openProfile(std::string path) {
+    return start([this, path = std::move(path)] {
+        Result<PhotometricFile> read = readIes(path);
+        const std::lock_guard lock(m_mutex);
+        m_profile = std::move(read);
+    });
+}
+
 bool FileJob::add(std::shared_ptr<const Assets> before, std::string path) {
     return start([this, before = std::move(before), path = std::move(path)] {
         Progress progress;
@@ -170,7 +178,7 @@ bool FileJob::save(std::string path, Document document, std::shared_ptr<const Pr
 
 bool FileJob::busy() const {
     const std::lock_guard lock(m_mutex);
-    return m_running || m_opened || m_sky || m_added || m_saved || m_pictures;
+    return m_running || m_opened || m_sky || m_profile || m_added || m_saved || m_pictures;
 }
 
 std::optional<Result<OpenedFile>> FileJob::takeOpened() {
@@ -181,6 +189,11 @@ std::optional<Result<OpenedFile>> FileJob::takeOpened() {
 std::optional<Result<Sky>> FileJob::takeSky() {
     const std::lock_guard lock(m_mutex);
     return std::exchange(m_sky, {});
+}
+
+std::optional<Result<PhotometricFile>> FileJob::takeProfile() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_profile, {});
 }
 
 std::optional<Result<AddedFile>> FileJob::takeAdded() {

@@ -5,6 +5,7 @@
 #include "engine/files/asset_file.h"
 #include "engine/gltf/gltf_import.h"
 #include "engine/measure/reference_set.h"
+#include "engine/scene/light/ies_file.h"
 
 #include <atomic>
 #include <functional>
@@ -53,6 +54,7 @@ public:
     /// `originalPath`. Its result is that of open(originalPath) with these changes.
     bool recover(std::string copy, std::string originalPath);
     bool openSkyImage(std::string path);
+    bool openProfile(std::string path);
     /// Reads what an AssetFile::path names, after `before`.
     bool add(std::shared_ptr<const Assets> before, std::string path);
     /// Writes the project and, beside it, the bake if there is one.
@@ -62,6 +64,8 @@ public:
     std::optional<Result<OpenedFile>> takeOpened();
     /// Returns the panorama that the last openSkyImage() read, or its error, once.
     std::optional<Result<Sky>> takeSky();
+    /// Returns what the last openProfile() read, or its error, once.
+    std::optional<Result<PhotometricFile>> takeProfile();
     /// Returns what the last add() read, or its error, once.
     std::optional<Result<AddedFile>> takeAdded();
     /// Writes a picture and the mean of its references as linear EXRs to pictureFiles(path)
@@ -84,6 +88,7 @@ private:
     mutable std::mutex m_mutex; ///< guards the members below
     std::optional<Result<OpenedFile>> m_opened;
     std::optional<Result<Sky>> m_sky;
+    std::optional<Result<PhotometricFile>> m_profile;
     std::optional<Result<AddedFile>> m_added;
     std::optional<Result<Document>> m_saved;
     std::optional<Result<std::string>> m_pictures;

@@ -11,13 +11,16 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 namespace limn {
 
 namespace fs = std::filesystem;
 
-static bool fits(FileBrowser::Purpose purpose, const std::string& extension) {
+static bool fits(FileBrowser::Purpose purpose, std::string extension) {
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return char(std::tolower(c)); });
     const bool scene = extension == ".gltf" || extension == ".glb";
     switch (purpose) {
     case FileBrowser::Purpose::NewFromScene:
@@ -31,6 +34,8 @@ static bool fits(FileBrowser::Purpose purpose, const std::string& extension) {
         return extension == ".limn";
     case FileBrowser::Purpose::SkyImage:
         return extension == ".hdr" || extension == ".exr";
+    case FileBrowser::Purpose::LightProfile:
+        return extension == ".ies";
     case FileBrowser::Purpose::SavePictures:
         return extension == ".exr";
     case FileBrowser::Purpose::ExportTo:
@@ -94,8 +99,13 @@ void openFileBrowser(EditorState& state, FileBrowser::Purpose purpose) {
 
 void openTextureBrowser(EditorState& state, ObjectId material, TextureSlot slot) {
     openFileBrowser(state, FileBrowser::Purpose::Texture);
-    state.fileBrowser->material = material;
+    state.fileBrowser->object = material;
     state.fileBrowser->slot = slot;
+}
+
+void openProfileBrowser(EditorState& state, ObjectId light) {
+    openFileBrowser(state, FileBrowser::Purpose::LightProfile);
+    state.fileBrowser->object = light;
 }
 
 static const char* title(FileBrowser::Purpose purpose) {
@@ -108,6 +118,8 @@ static const char* title(FileBrowser::Purpose purpose) {
         return "Save as";
     case FileBrowser::Purpose::SkyImage:
         return "Sky image";
+    case FileBrowser::Purpose::LightProfile:
+        return "IES profile";
     case FileBrowser::Purpose::ExportTo:
         return "Export to";
     case FileBrowser::Purpose::AddScene:
@@ -125,6 +137,7 @@ static const char* acceptLabel(FileBrowser::Purpose purpose) {
     case FileBrowser::Purpose::NewFromScene:
     case FileBrowser::Purpose::Open:
     case FileBrowser::Purpose::SkyImage:
+    case FileBrowser::Purpose::LightProfile:
         return "Open";
     case FileBrowser::Purpose::SaveAs:
     case FileBrowser::Purpose::SavePictures:
@@ -224,10 +237,15 @@ static std::optional<Request> accepted(FileBrowser& browser) {
     }
     if (browser.purpose == FileBrowser::Purpose::SkyImage)
         return Request{Request::Kind::OpenSkyImage, path.string()};
+    if (browser.purpose == FileBrowser::Purpose::LightProfile) {
+        Request request{Request::Kind::OpenProfile, path.string()};
+        request.object = browser.object;
+        return request;
+    }
     if (browser.purpose == FileBrowser::Purpose::AddScene ||
         browser.purpose == FileBrowser::Purpose::Texture) {
         Request request{Request::Kind::AddFile, path.string()};
-        request.object = browser.material;
+        request.object = browser.object;
         request.slot = browser.slot;
         return request;
     }

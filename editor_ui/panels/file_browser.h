@@ -17,6 +17,7 @@ struct FileBrowser {
         Open,
         SaveAs,
         SkyImage,
+        LightProfile,
         ExportTo,
         AddScene,
         Texture,
@@ -31,7 +32,7 @@ struct FileBrowser {
     std::vector<Entry> entries;
     std::string error;      ///< why the folder could not be read or the name was refused
     bool overwrite = false; ///< the user was warned that the file exists
-    ObjectId material = 0;  ///< that gets the texture
+    ObjectId object = 0;    ///< the material or light that gets the file
     TextureSlot slot = TextureSlot::BaseColor;
 };
 
@@ -41,6 +42,9 @@ void openFileBrowser(EditorState& state, FileBrowser::Purpose purpose);
 
 /// The same, to choose a texture of a material.
 void openTextureBrowser(EditorState& state, ObjectId material, TextureSlot slot);
+
+/// The same, to choose a photometric file for a light.
+void openProfileBrowser(EditorState& state, ObjectId light);
 
 /// Reads `folder`: folders first, then files with an extension that fits the purpose, each by name.
 void readFolder(FileBrowser& browser, const std::string& folder);

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/document/light_angles.h"
-#include "editor_ui/document/photometry.h"
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/card.h"
 #include "editor_ui/panels/color_field.h"
 #include "editor_ui/panels/field.h"
+#include "editor_ui/panels/file_browser.h"
 #include "editor_ui/panels/inspector_panel.h"
+#include "editor_ui/panels/profile_plot.h"
+#include "editor_ui/panels/theme.h"
+#include "engine/scene/light/photometry.h"
 
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
 
@@ -30,6 +34,32 @@ static void colorRows(FieldEdit& edit, Light& light) {
     fieldEdited(edit, "Light temperature");
 }
 
+/// A field that takes strength and colour as lamps state them, and converts them.
+static void typedRow(FieldEdit& edit, Light& light) {
+    TypedLight& typed = edit.state.typedLight;
+    if (typed.light != edit.id)
+        typed = {.light = edit.id};
+    fieldLabel(
+        "Type a value",
+        "Strength and colour with their units, as in 800 lm, 12 cd, 5000 nits, 13 EV, 2700 K "
+        "or 800 lm 2700 K. EV: at ISO 100, by a meter that faces the light. Enter applies");
+    const bool entered = ImGui::InputTextWithHint(
+        "##typed", light.kind == LightKind::Directional ? "13 EV 5500 K" : "800 lm 2700 K",
+        &typed.text, ImGuiInputTextFlags_EnterReturnsTrue);
+    if (entered) {
+        const Result<void> applied = applyTyped(typed.text, light);
+        typed.problem = applied ? std::string() : applied.error().message;
+        if (applied)
+            typed.text.clear();
+    }
+    fieldEdited(edit, "Light strength");
+    if (!typed.problem.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, color::warning());
+        ImGui::TextWrapped("%s", typed.problem.c_str());
+        ImGui::PopStyleColor();
+    }
+}
+
 static void strengthRows(FieldEdit& edit, Light& light) {
     const bool sun = light.kind == LightKind::Directional,
                rectangle = light.kind == LightKind::Rectangle;
@@ -41,7 +71,8 @@ static void strengthRows(FieldEdit& edit, Light& light) {
                       : rectangle
                           ? "Luminance of the rectangle; a larger one shines more light [nits]. "
                             "Ctrl-click to type"
-                          : "Luminous intensity [cd]. Ctrl-click to type",
+                          : "Luminous intensity, with a profile that of its brightest "
+                            "direction [cd]. Ctrl-click to type",
                       &Light::strength);
     ImGui::SliderFloat("##strength", &light.strength, 0, 1e5f,
                        sun         ? "%.2f lux"
@@ -49,13 +80,46 @@ static void strengthRows(FieldEdit& edit, Light& light) {
                                    : "%.2f cd",
                        ImGuiSliderFlags_Logarithmic);
     fieldEdited(edit, "Light strength");
-    if (sun)
+    if (sun) {
+        typedRow(edit, light);
         return;
+    }
     float flux = lumen(light);
     fieldLabel("Flux (lm)", "The same strength as luminous flux over all directions [lm]");
     if (ImGui::SliderFloat("##flux", &flux, 0, 1e6f, "%.1f lm", ImGuiSliderFlags_Logarithmic))
         light.strength = strengthForLumen(light, flux);
     fieldEdited(edit, "Light flux");
+    typedRow(edit, light);
+}
+
+/// The photometric file of a point or a spot, and its plot.
+static void profileRows(FieldEdit& edit, Light& light) {
+    fieldLabel<Light>(edit, "Profile",
+                      "How the intensity varies with direction, from a photometric file of the "
+                      "standard IES LM-63 (.ies)",
+                      &Light::profile);
+    if (ImGui::Button("Choose\u2026"))
+        openProfileBrowser(edit.state, edit.id);
+    wrappedTooltip("Opens a file; the light gets its intensity as well");
+    if (light.profile) {
+        ImGui::SameLine();
+        if (ImGui::Button("Remove"))
+            light.profile = {};
+        wrappedTooltip("The light shines the same to all sides again");
+    }
+    fieldEdited(edit, "IES profile");
+    if (!light.profile)
+        return;
+    fieldLabel("Luminaire", "The name that the file gives");
+    elidedText(light.profile->name.empty() ? "unnamed" : light.profile->name,
+               ImGui::GetContentRegionAvail().x);
+    float degrees = glm::degrees(light.roll);
+    fieldLabel<Light>(edit, "Roll (\u00b0)", "Turns the profile about its axis [degrees]",
+                      &Light::roll);
+    if (ImGui::SliderFloat("##roll", &degrees, -180, 180, "%.1f\u00b0"))
+        light.roll = glm::radians(degrees);
+    fieldEdited(edit, "Light roll");
+    profilePlot(light);
 }
 
 /// Where the light comes from: height above the horizon and compass direction.
@@ -140,7 +204,7 @@ static void placeRows(FieldEdit& edit, Light& light) {
                                    : "In the coordinates of the scene file [m]");
     positionField("##position", light.position, edit.state.document.origin);
     fieldEdited(edit, "Move");
-    if (light.kind != LightKind::Point)
+    if (light.kind != LightKind::Point || light.profile)
         directionRows(edit, light);
 }
 
@@ -164,6 +228,9 @@ void lightSection(FieldEdit& edit, Light& light) {
         placeRows(edit, light);
     if (light.kind != LightKind::Directional && card(edit.state, "Shape and range"))
         shapeRows(edit, light);
+    if ((light.kind == LightKind::Point || light.kind == LightKind::Spot) &&
+        card(edit.state, "IES profile"))
+        profileRows(edit, light);
 }
 
 } // namespace limn

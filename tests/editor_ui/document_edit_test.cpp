@@ -77,6 +77,20 @@ TEST_F(DocumentEditTest, HidingTurnsLightsOffAndNodesInvisibleInOneStep) {
     EXPECT_EQ(state.document.objects, before.objects);
 }
 
+TEST_F(DocumentEditTest, AProfileBringsItsIntensityAndMakesALightAPoint) {
+    const LightProfile profile{
+        .name = "Lamp", .peak = 321, .rows = 2, .columns = 1, .share = {1, 0}};
+    setLightProfile(state, idNamed(state, "Torch"), profile);
+    EXPECT_EQ(get<Light>("Torch").kind, LightKind::Spot);
+    EXPECT_EQ(get<Light>("Torch").strength, 321);
+    EXPECT_EQ(*get<Light>("Torch").profile, profile);
+    expectOneUndoStep();
+    setLightProfile(state, idNamed(state, "Panel"), profile);
+    EXPECT_EQ(get<Light>("Panel").kind, LightKind::Point);
+    setLightProfile(state, idNamed(state, "Group"), profile);
+    EXPECT_EQ(state.history.edits.size(), 2u); // a group has none
+}
+
 TEST_F(DocumentEditTest, NewLightsHaveNamesOfTheirOwn) {
     for (int i = 0; i < 4; ++i)
         addLight(state, Light{.name = "Lamp"});

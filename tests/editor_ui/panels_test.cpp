@@ -39,6 +39,20 @@ TEST(Panels, DrawingNeverChangesTheDocument) {
     EXPECT_TRUE(state.history.edits.empty());
 }
 
+TEST(Panels, ALightWithAProfileIsDrawnAndStaysAsItIs) {
+    HeadlessUi ui(1280, 1600);
+    EditorState state = fullEditor();
+    for (const char* name : {"Lamp", "Torch"})
+        for (const std::uint32_t columns : {1U, 4U}) {
+            LightProfile profile{.name = std::string(200, 'x'), .rows = 3, .columns = columns};
+            profile.share.assign(3 * columns, 0.25f);
+            setLightProfile(state, idNamed(state, name), profile);
+            const Document before = state.document;
+            drawWithEverySelection(ui, state);
+            EXPECT_EQ(state.document, before);
+        }
+}
+
 TEST(Panels, DrawingAFarSceneNeverChangesItEither) {
     HeadlessUi ui;
     EditorState state = fullEditor();

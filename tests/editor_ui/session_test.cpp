@@ -73,6 +73,37 @@ TEST_F(SessionTest, AnOpenedSceneIsBakedAndLitUntilItConverges) {
     EXPECT_FALSE(hasUnsavedChanges(session.state));
 }
 
+TEST_F(SessionTest, APhotometricFileIsReadForTheLightThatIsSelected) {
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    const std::string path = (folder / "Lamp.IES").string();
+    std::ofstream(path) << "TILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 9\n0 90\n0\n70 0\n";
+    Light lamp;
+    lamp.strength = 1;
+    const ObjectId id = addLight(session.state, lamp);
+    session.state.requests.push_back({Request::Kind::Open, path}); // as a file that is dropped
+    ASSERT_TRUE(runUntil(session, [&] { return session.scene()->lights.back().strength == 70; }));
+    ASSERT_TRUE(session.scene()->lights.back().profile);
+    EXPECT_EQ(session.scene()->lights.back().profile->name, "Lamp");
+    ASSERT_TRUE(undoEdit(session.state));
+    EXPECT_FALSE(std::get<Light>(session.state.document.objects.at(id)).profile);
+
+    const auto complained = [&](const Request& request, const char* text) {
+        session.state.requests.push_back(request);
+        EXPECT_TRUE(runUntil(session, [&] {
+            return session.state.log.back().level == LogLine::Level::Error && session.idle();
+        }));
+        EXPECT_NE(session.state.log.back().text.find(text), std::string::npos)
+            << session.state.log.back().text;
+    };
+    complained(
+        {.kind = Request::Kind::OpenProfile, .path = (folder / "none.ies").string(), .object = id},
+        "none.ies");
+    session.state.selection.clear();
+    complained({Request::Kind::Open, path}, "select the light");
+}
+
 TEST_F(SessionTest, ASkyImageIsReadLightsTheSceneWithoutABakeAndIsUndone) {
     Session session(options());
     session.open(project);

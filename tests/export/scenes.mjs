@@ -11,13 +11,13 @@ import { encodeExr } from './exr.mjs';
 import { pack } from './godot/pack.mjs';
 
 const here = path.dirname(fileURLToPath(import.meta.url)), root = path.join(here, '../..');
-const shared = path.join(root, '../shared/scenes'), width = 384, height = 288;
+const shared = path.join(root, '../shared/scenes');
 const known = {
     cornell: { file: 'cornell', harmonics: true }, atrium: { file: 'atrium', harmonics: true },
     sponza: { file: path.join(shared, 'sponza-crytek'), lights: ['--light', 'sun dir=-0.2,-1,0.1 lux=20'],
-        view: { eye: [-9, 2, -0.3], target: [5, 3, -0.3], fov: 60 } },
-    'living-room': { file: path.join(shared, 'living-room'), lights: ['--sky', path.join(shared, 'living-room/Sky_19.exr')] },
-    staircase: { file: path.join(shared, 'staircase') },
+        view: { eye: [-9, 2, -0.3], target: [5, 3, -0.3], fov: 60 }, small: true },
+    'living-room': { file: path.join(shared, 'living-room'), lights: ['--sky', path.join(shared, 'living-room/Sky_19.exr')], small: true },
+    staircase: { file: path.join(shared, 'staircase'), small: true },
 };
 const [out, ...chosen] = process.argv.slice(2);
 const limn = (...args) => execFileSync(path.join(root, 'build/release/limn'), args, { encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'], maxBuffer: 1 << 26 });
@@ -37,7 +37,7 @@ function report(scene, consumer, view, { nrmse, most }) {
 }
 
 /** Puts what was exported for Godot into a project that shows it. Godot takes exposures up to 16. */
-function packGodot(folder, exported, from) {
+function packGodot(folder, exported, from, [width, height]) {
     const settings = path.join(folder, 'godot-scene.json');
     fs.writeFileSync(settings, JSON.stringify({ width, height, from, exposures: [-4, -3, -2, -1, 0, 1, 2].map((k) => 4 ** k) }));
     const files = { 'scene.json': settings };
@@ -58,6 +58,7 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
         continue;
     }
     const folder = path.resolve(out, 'scenes', name), scene = [file, ...(known[name].lights ?? [])];
+    const [width, height] = known[name].small ? [192, 144] : [384, 288]; // pixels
     fs.mkdirSync(folder, { recursive: true });
     const bake = path.join(folder, 'light.limnbake');
     if (!fs.existsSync(bake)) limn('bake', ...scene, '-o', bake);
@@ -77,7 +78,7 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
         ['playcanvas', null, []], ['godot', 'irradiance', []], ['godot', 'irradiance', ['--lightmap-bands', 2]]]) {
         if (options.includes('--lightmap-bands') && !known[name].harmonics) continue;
         const { files } = JSON.parse(limn('export', ...scene, '--bake', bake, '--format', engine, ...options, ...(engine === 'godot' ? [] : ['--paths', 0]), '--json', '-o', path.join(folder, `${engine}.gltf`)));
-        if (engine === 'godot') packGodot(folder, files, from);
+        if (engine === 'godot') packGodot(folder, files, from, [width, height]);
         const url = `${address}/scene-${engine}.html?folder=/scenes/${name}&width=${width}&height=${height}${from ? `&from=${JSON.stringify(from)}` : ''}`;
         const result = await visit(browser, url, path.join(folder, `${engine}.png`), { timeout: 600000, keep: true, width, height });
         if (!result.ok) {
