@@ -16,6 +16,7 @@
 #include "editor_ui/panels/save_dialog.h"
 #include "editor_ui/panels/start_screen.h"
 #include "editor_ui/panels/theme.h"
+#include "editor_ui/panels/timeline.h"
 #include "editor_ui/panels/viewport_panel.h"
 #include "editor_ui/view/gizmo.h"
 
@@ -36,7 +37,7 @@ struct Rect {
 
 /// Rectangles of all panels, which tile the window.
 struct Places {
-    Rect left, right, bottom, bar, picture, status;
+    Rect left, right, bottom, bar, picture, timeline, status;
 };
 
 constexpr float kSplitter = 5, kMinPanel = 150, kMinPicture = 160; ///< at 96 dpi [px]
@@ -70,7 +71,8 @@ static LayoutState fitted(LayoutState layout, float width, float height) {
     return layout;
 }
 
-static Places placesOf(const LayoutState& layout, float menuHeight) {
+/// `animated`: there is a row for the time below the picture.
+static Places placesOf(const LayoutState& layout, float menuHeight, bool animated) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float frame = ImGui::GetFrameHeight();
     const float splitter = splitterWidth(), scale = uiScale();
@@ -83,7 +85,9 @@ static Places placesOf(const LayoutState& layout, float menuHeight) {
     p.left = {0, top, layout.left, upper};
     p.right = {display.x - layout.right, top, layout.right, upper};
     p.bar = {middleX, top, middleW, barHeight};
-    p.picture = {middleX, top + barHeight, middleW, std::max(upper - barHeight, 1.f)};
+    const float timeHeight = animated ? barHeight : 0;
+    p.picture = {middleX, top + barHeight, middleW, std::max(upper - barHeight - timeHeight, 1.f)};
+    p.timeline = {middleX, p.picture.y + p.picture.h, middleW, timeHeight};
     p.bottom = {0, top + height - layout.bottom, display.x, layout.bottom};
     p.status = {0, top + height, display.x, statusHeight};
     return p;
@@ -158,7 +162,8 @@ static void panels(EditorState& state, float menuHeight) {
     const LayoutState layout =
         fitted(state.layout, display.x,
                display.y - menuHeight - 2 * ImGui::GetFrameHeight() - 22 * uiScale());
-    const Places p = placesOf(layout, menuHeight);
+    const bool animated = animationLength(state) > 0;
+    const Places p = placesOf(layout, menuHeight, animated);
     beginFixed("outliner", p.left);
     outlinerPanel(state);
     ImGui::End();
@@ -170,6 +175,11 @@ static void panels(EditorState& state, float menuHeight) {
     viewBar(state);
     ImGui::End();
     picturePanel(state, p.picture);
+    if (animated) {
+        beginFixed("time", p.timeline, kNoScroll);
+        timeline(state);
+        ImGui::End();
+    }
     startScreen(state);
     noLightHint(state);
     noticeBox(state);
@@ -254,7 +264,7 @@ static void shortcuts(EditorState& state, std::span<const Shortcut> pressed) {
 
 void drawEditor(EditorState& state, std::span<const Shortcut> pressed) {
     if (state.playing) // after a sleep: no leap
-        state.seconds += double(std::min(ImGui::GetIO().DeltaTime, 0.25f));
+        advanceTime(state, double(std::min(ImGui::GetIO().DeltaTime, 0.25f)));
     setThemeColors(state.lightTheme);
     shortcuts(state, pressed);
     menuBar(state);

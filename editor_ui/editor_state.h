@@ -21,6 +21,7 @@
 #include "editor_ui/view/gizmo_drag.h"
 #include "editor_ui/view/overlay_state.h"
 #include "editor_ui/view/placement.h"
+#include "engine/scene/animation.h"
 #include "engine/scene/exposure.h"
 #include "engine/scene/scene.h"
 #include "engine/scene/view.h"
@@ -115,12 +116,13 @@ struct EditorState {
     std::optional<RecoveryOffer> recovery;
     std::optional<Notice> notice; ///< the newest one that was not dismissed
     Palette palette;
-    bool autoBake = true;                    ///< bakes whenever that is needed and nothing is held
-    float bakeError = 0.2f;                  ///< maximum nRMSE of a bake to an error
-    double seconds = 0;                      ///< since the start of animated textures
-    bool playing = false;                    ///< `seconds` advances
-    Prediction prediction;                   ///< of a bake of the document
-    std::shared_ptr<const TraceScene> trace; ///< for picking; may be a little old or null
+    bool autoBake = true;   ///< bakes whenever that is needed and nothing is held
+    float bakeError = 0.2f; ///< maximum nRMSE of a bake to an error
+    double seconds = 0;     ///< since the start of what is animated
+    std::shared_ptr<const SceneAnimation> animation; ///< of the scene file; null: it has none
+    bool playing = false;                            ///< `seconds` advances
+    Prediction prediction;                           ///< of a bake of the document
+    std::shared_ptr<const TraceScene> trace;         ///< for picking; may be a little old or null
     Bounds sceneBounds;
     bool unlit = false; ///< nothing lights the scene
     BakeStatus bake;

@@ -208,6 +208,8 @@ void Session::show(OpenedFile file) {
     if (!file.recovered)
         state.saved = state.document.objects;
     state.assets = std::move(file.imported.assets);
+    state.animation = std::move(file.imported.animation);
+    state.seconds = m_options.import.seconds.value_or(0);
     state.meshBounds = std::move(file.meshBounds);
     state.projectPath = std::move(file.projectPath);
     state.sample = file.sample;
@@ -501,14 +503,19 @@ void Session::showExplanation() {
 void Session::followDocument() {
     const std::set<ObjectId> muted =
         state.explain.mutes ? state.explain.muted : std::set<ObjectId>{};
-    if (state.document.objects == m_followed->objects && state.solo == m_solo && muted == m_muted)
+    const bool moved = state.animation && state.seconds != m_shownSeconds;
+    if (state.document.objects == m_followed->objects && state.solo == m_solo && muted == m_muted &&
+        !moved)
         return;
     m_followed = std::make_shared<const Document>(state.document);
     state.errors.restart(ErrorHistory::Clock::now());
     m_solo = state.solo;
     m_muted = muted;
     m_shownSeconds = state.seconds;
-    Scene flat = flatten(state.document, state.assets, m_shownSeconds);
+    const bool atRest = !state.animation || m_shownSeconds == 0;
+    Scene flat = flatten(atRest ? state.document
+                                : posedDocument(state.document, *state.animation, m_shownSeconds),
+                         state.assets, m_shownSeconds);
     state.unlit = nothingShines(flat);
     applySolo(flat, state.document, m_solo);
     const auto whole = std::make_shared<const Scene>(std::move(flat));

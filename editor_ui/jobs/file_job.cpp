@@ -93,6 +93,8 @@ static Result<OpenedFile> openedFile(const std::string& what, Result<ImportedSce
     file.imported = std::move(*imported);
     file.meshBounds = boundsOfMeshes(*file.imported.assets);
     const bool project = fs::path(what).extension() == ".limn";
+    if (!project && file.imported.animation) // in a project, that is the user's choice
+        makeMovingDynamic(file.imported.document, *file.imported.animation);
     file.sample = liesIn(project ? what : file.imported.document.scenePath, projectsFolder);
     if (project && !file.sample) {
         file.projectPath = fs::absolute(what).string();

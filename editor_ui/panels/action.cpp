@@ -10,6 +10,7 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/key_map.h"
 #include "editor_ui/panels/overlay_panel.h"
+#include "editor_ui/panels/timeline.h"
 #include "editor_ui/view/camera_control.h"
 #include "editor_ui/view/gizmo.h"
 #include "editor_ui/view/light_placement.h"
@@ -305,10 +306,7 @@ void cancelBake(EditorState& s) {
     request(s, Request::Kind::CancelBake);
 }
 bool hasAnimation(const EditorState& s) {
-    return std::ranges::any_of(s.document.objects, [](const auto& entry) {
-        const Material* m = std::get_if<Material>(&entry.second);
-        return m && isAnimated(*m);
-    });
+    return animationLength(s) > 0;
 }
 bool plays(const EditorState& s) {
     return s.playing;

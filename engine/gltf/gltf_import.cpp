@@ -2,6 +2,7 @@
 #include "engine/gltf/gltf_import.h"
 
 #include "engine/core/parallel.h"
+#include "engine/gltf/gltf_animation.h"
 #include "engine/gltf/gltf_extensions.h"
 #include "engine/gltf/gltf_file.h"
 #include "engine/gltf/gltf_image.h"
@@ -244,10 +245,16 @@ static Result<ImportedScene> import(const std::string& path, const Progress& pro
         addObject(scene.document, material);
     const std::vector<ProfileRef> profiles = readProfiles(
         model, std::filesystem::path(path).parent_path().string(), options.reach, repairs);
-    if (const Result<void> added =
-            addNodes(scene.document, model, *meshes, *skins, profiles, assets->meshes, repairs);
-        !added)
-        return tl::make_unexpected(added.error());
+    const Result<NodesOfGltf> nodes =
+        addNodes(scene.document, model, *meshes, *skins, profiles, assets->meshes, repairs);
+    if (!nodes)
+        return tl::make_unexpected(nodes.error());
+    const Result<std::shared_ptr<const SceneAnimation>> animation =
+        readAnimation(model, scene.document, *nodes);
+    if (animation)
+        scene.animation = *animation;
+    else
+        repairs.sentences.push_back(animation.error().message + "; nothing moves");
     addObject(scene.document, Sky{});
     addObject(scene.document, BakeSettings{});
 

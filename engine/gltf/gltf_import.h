@@ -5,6 +5,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/result.h"
 #include "engine/gltf/gltf_uri.h"
+#include "engine/scene/animation.h"
 #include "engine/scene/scene.h"
 
 #include <memory>
@@ -19,6 +20,7 @@ struct ImportedScene {
     std::shared_ptr<const Assets> assets;
     std::vector<std::string>
         repairs; ///< one sentence each: what was repaired or left out, with counts
+    std::shared_ptr<const SceneAnimation> animation = nullptr; ///< null: nothing moves
 };
 
 struct ImportOptions {

@@ -47,7 +47,8 @@ static void readSpot(Light& light, const tinygltf::SpotLight& spot, GltfRepairs&
         repairs.add("spot cones outside 0 <= inner < outer <= 90 degrees brought into it");
 }
 
-static void addLight(Document& document, const tinygltf::Light& source, const std::string& nodeName,
+/// False if it is of no known type.
+static bool addLight(Document& document, const tinygltf::Light& source, const std::string& nodeName,
                      const glm::mat4& toWorld, bool visible, GltfRepairs& repairs) {
     Light light;
     if (source.type == "directional") {
@@ -57,7 +58,7 @@ static void addLight(Document& document, const tinygltf::Light& source, const st
         readSpot(light, source.spot, repairs);
     } else if (source.type != "point") {
         repairs.add("lights of unknown type left out");
-        return;
+        return false;
     }
     light.name = !nodeName.empty() ? nodeName : !source.name.empty() ? source.name : "Light";
     light.position = glm::vec3(toWorld[3]);
@@ -69,6 +70,7 @@ static void addLight(Document& document, const tinygltf::Light& source, const st
     light.enabled = visible;
     light.range = notNegative(source.range, repairs);
     addObject(document, light);
+    return true;
 }
 
 /// The member `color` of an extension's light; white where it has none.
@@ -192,9 +194,11 @@ static void addProfileLightOf(Document& document, const tinygltf::Node& node,
                         repairs);
 }
 
-void addLightAndCamera(Document& document, const tinygltf::Model& model,
-                       std::span<const ProfileRef> profiles, std::size_t index,
-                       const glm::mat4& toWorld, bool visible, GltfRepairs& repairs) {
+std::optional<std::size_t> addLightAndCamera(Document& document, const tinygltf::Model& model,
+                                             std::span<const ProfileRef> profiles,
+                                             std::size_t index, const glm::mat4& toWorld,
+                                             bool visible, GltfRepairs& repairs) {
+    std::optional<std::size_t> punctual;
     const tinygltf::Node& node = model.nodes[index];
     const auto extension = node.extensions.find("KHR_lights_punctual");
     if (extension != node.extensions.end() && extension->second.IsObject() &&
@@ -203,15 +207,16 @@ void addLightAndCamera(Document& document, const tinygltf::Model& model,
         if (light < 0 || std::size_t(light) >= model.lights.size())
             repairs.sentences.push_back(
                 fmt::format("nodes[{}]: light {} does not exist", index, light));
-        else
-            addLight(document, model.lights[std::size_t(light)], node.name, toWorld, visible,
-                     repairs);
+        else if (addLight(document, model.lights[std::size_t(light)], node.name, toWorld, visible,
+                          repairs))
+            punctual = std::size_t(light);
     }
     if (const tinygltf::Value* area = areaLightOf(model, node))
         addAreaLight(document, *area, node.name, toWorld, visible, repairs);
     addProfileLightOf(document, node, profiles, index, toWorld, visible, repairs);
     if (node.camera >= 0 && std::size_t(node.camera) < model.cameras.size())
         addCamera(document, model.cameras[std::size_t(node.camera)], node.name, toWorld, repairs);
+    return punctual;
 }
 
 } // namespace limn

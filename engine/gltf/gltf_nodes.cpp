@@ -295,9 +295,9 @@ static void addSkinned(NodeReader& reader, std::size_t index, const glm::dvec3& 
     addObject(reader.document, std::move(node));
 }
 
-Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf& meshes,
-                      std::span<const SkinPose> skins, std::span<const ProfileRef> profiles,
-                      std::span<const Mesh> placed, GltfRepairs& repairs) {
+Result<NodesOfGltf> addNodes(Document& document, const Model& model, const MeshesOfGltf& meshes,
+                             std::span<const SkinPose> skins, std::span<const ProfileRef> profiles,
+                             std::span<const Mesh> placed, GltfRepairs& repairs) {
     const Result<std::vector<int>> parents = parentsOf(model);
     if (!parents)
         return tl::make_unexpected(parents.error());
@@ -314,8 +314,8 @@ Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf
         const Visit visit = stack.back();
         stack.pop_back();
         visited.push_back(visit.node);
-        if (Result<void> added = addNode(reader, visit); !added)
-            return added;
+        if (const Result<void> added = addNode(reader, visit); !added)
+            return tl::make_unexpected(added.error());
         const std::vector<int>& children = model.nodes[std::size_t(visit.node)].children;
         for (auto child = children.rbegin(); child != children.rend(); ++child)
             stack.push_back({*child, reader.ids[std::size_t(visit.node)]});
@@ -331,12 +331,21 @@ Result<void> addNodes(Document& document, const Model& model, const MeshesOfGltf
                    !hidden[std::size_t(node)]);
     document.origin = originOf(document, placed);
     Placements placements(document);
+    NodesOfGltf result;
+    result.ids = reader.ids;
+    result.lights.resize(model.lights.size());
     for (const int node : visited) {
         const auto n = std::size_t(node);
-        addLightAndCamera(document, model, profiles, n,
-                          glm::mat4(placements.of(reader.ids[n]).toWorld), !hidden[n], repairs);
+        ObjectId added = document.nextId;
+        const std::optional<std::size_t> light =
+            addLightAndCamera(document, model, profiles, n,
+                              glm::mat4(placements.of(reader.ids[n]).toWorld), !hidden[n], repairs);
+        if (light)
+            result.lights[*light].push_back(added); // the first of them
+        for (; added < document.nextId; ++added)
+            result.carried.push_back({added, reader.ids[n]});
     }
-    return {};
+    return result;
 }
 
 } // namespace limn

@@ -2,7 +2,7 @@
 #include "engine/gltf/gltf_pose.h"
 
 #include "engine/gltf/gltf_accessor.h"
-#include "engine/gltf/gltf_value.h"
+#include "engine/gltf/gltf_channels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,88 +18,6 @@
 namespace limn {
 
 namespace {
-
-constexpr const char* kPointer = "KHR_animation_pointer";
-
-/// Keys of a sampler around a time.
-struct Keys {
-    std::size_t before = 0, after = 0;
-    float share = 0;   ///< of the way from one to the other
-    float seconds = 0; ///< between them
-};
-
-Keys keysAt(std::span<const float> times, float seconds) {
-    const auto next = std::size_t(std::ranges::upper_bound(times, seconds) - times.begin());
-    if (next == 0 || next == times.size()) {
-        const std::size_t end = next == 0 ? 0 : times.size() - 1;
-        return {end, end, 0, 0};
-    }
-    const float length = times[next] - times[next - 1];
-    return {next - 1, next, length > 0 ? (seconds - times[next - 1]) / length : 0, length};
-}
-
-/// A sampler whose values have `width` numbers at each key.
-struct KeyedValues {
-    std::vector<float> times, values;
-    bool steps = false, isCubic = false;
-
-    std::size_t width() const { return values.size() / (times.size() * (isCubic ? 3 : 1)); }
-    /// Values of a key; of a cubic spline 0 and 2 are its tangents.
-    std::span<const float> at(std::size_t key, std::size_t part) const {
-        const std::size_t w = width(), first = isCubic ? (3 * key + part) * w : key * w;
-        return std::span(values).subspan(first, w);
-    }
-};
-
-Result<KeyedValues> readKeyedValues(const tinygltf::Model& model,
-                                    const tinygltf::AnimationSampler& source) {
-    const Result<AccessorValues> input = readNumbers(model, source.input);
-    if (!input)
-        return fail("input: " + input.error().message);
-    const Result<AccessorValues> output = readNumbers(model, source.output);
-    if (!output)
-        return fail("output: " + output.error().message);
-    KeyedValues sampler{input->values, output->values, source.interpolation == "STEP",
-                        source.interpolation == "CUBICSPLINE"};
-    const std::size_t keys = sampler.times.size() * (sampler.isCubic ? 3 : 1);
-    if (keys == 0 || !std::ranges::is_sorted(sampler.times))
-        return fail("input: is not a list of times that ascend");
-    if (sampler.values.size() < keys || sampler.values.size() % keys != 0)
-        return fail(fmt::format("output: has {} numbers for {} keys", sampler.values.size(), keys));
-    return sampler;
-}
-
-/// The values at a time. Rotations are interpolated on the sphere.
-std::vector<double> valuesAt(const KeyedValues& sampler, float seconds, bool isRotation) {
-    const Keys keys = keysAt(sampler.times, seconds);
-    const std::size_t middle = sampler.isCubic ? 1 : 0;
-    const std::span<const float> a = sampler.at(keys.before, middle),
-                                 b = sampler.at(keys.after, middle);
-    std::vector<double> out(a.begin(), a.end());
-    if (sampler.steps || keys.before == keys.after)
-        return out;
-    const double t = double(keys.share);
-    if (sampler.isCubic) { // Hermite's spline, whose tangents are per second
-        const std::span<const float> leaving = sampler.at(keys.before, 2),
-                                     arriving = sampler.at(keys.after, 0);
-        const double d = double(keys.seconds), t2 = t * t, t3 = t2 * t;
-        for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] = (2 * t3 - 3 * t2 + 1) * double(a[i]) +
-                     d * (t3 - 2 * t2 + t) * double(leaving[i]) + (3 * t2 - 2 * t3) * double(b[i]) +
-                     d * (t3 - t2) * double(arriving[i]);
-    } else if (isRotation && out.size() == 4) {
-        const auto quaternion = [](std::span<const float> v) {
-            return glm::dquat(glm::quat(v[3], v[0], v[1], v[2]));
-        };
-        const glm::dquat from = quaternion(a), to = quaternion(b);
-        const glm::dquat q = glm::slerp(from, to, t);
-        out = {q.x, q.y, q.z, q.w};
-    } else {
-        for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] += t * (double(b[i]) - double(a[i]));
-    }
-    return out;
-}
 
 /// What a channel moves.
 struct Target {
@@ -127,42 +45,12 @@ Target targetOfLight(tinygltf::Light& light, std::string_view path) {
     return path == "range" ? Target{nullptr, &light.range, 1, false} : Target();
 }
 
-/// The target of a JSON pointer such as "/extensions/KHR_lights_punctual/lights/0/intensity".
-Target targetOfPointer(tinygltf::Model& model, std::string_view pointer) {
-    const auto under =
-        [&](std::string_view prefix,
-            std::size_t count) -> std::optional<std::pair<std::size_t, std::string_view>> {
-        if (!pointer.starts_with(prefix))
-            return {};
-        const std::string_view rest = pointer.substr(prefix.size());
-        const std::size_t slash = rest.find('/');
-        std::size_t index = 0;
-        for (const char c : rest.substr(0, slash)) {
-            if (c < '0' || c > '9' || index > count)
-                return {};
-            index = 10 * index + std::size_t(c - '0');
-        }
-        if (slash == 0 || slash == std::string_view::npos || index >= count)
-            return {};
-        return std::pair(index, rest.substr(slash + 1));
-    };
-    if (const auto node = under("/nodes/", model.nodes.size()))
-        return targetOfNode(model.nodes[node->first], node->second);
-    if (const auto light = under("/extensions/KHR_lights_punctual/lights/", model.lights.size()))
-        return targetOfLight(model.lights[light->first], light->second);
-    return {};
-}
-
 Target targetOf(tinygltf::Model& model, const tinygltf::AnimationChannel& channel) {
-    const auto pointer = channel.target_extensions.find(kPointer);
-    if (pointer != channel.target_extensions.end()) {
-        const tinygltf::Value* path = member(pointer->second, "pointer");
-        return path && path->IsString() ? targetOfPointer(model, path->Get<std::string>())
-                                        : Target();
-    }
-    if (channel.target_node < 0 || std::size_t(channel.target_node) >= model.nodes.size())
+    const std::optional<ChannelTarget> target = channelTarget(model, channel);
+    if (!target)
         return {};
-    return targetOfNode(model.nodes[std::size_t(channel.target_node)], channel.target_path);
+    return target->isLight ? targetOfLight(model.lights[target->index], target->path)
+                           : targetOfNode(model.nodes[target->index], target->path);
 }
 
 glm::dmat4 localMatrix(const tinygltf::Node& node) {
@@ -252,18 +140,15 @@ Result<void> poseAt(tinygltf::Model& model, double seconds, GltfRepairs& repairs
         const auto failAt = [&](const std::string& message) {
             return fail(fmt::format("animations[0].channels[{}].{}", c, message));
         };
-        if (channel.sampler < 0 || std::size_t(channel.sampler) >= animation.samplers.size())
-            return failAt("sampler: out of range");
         const Target target = targetOf(model, channel);
         if (!target.values && !target.number) {
             repairs.add("animated properties that stay as they are");
             continue;
         }
-        const Result<KeyedValues> sampler =
-            readKeyedValues(model, animation.samplers[std::size_t(channel.sampler)]);
-        if (!sampler)
-            return failAt("sampler: " + sampler.error().message);
-        const std::vector<double> values = valuesAt(*sampler, float(seconds), target.isRotation);
+        const Result<KeyedValues> keys = readKeys(model, animation, channel);
+        if (!keys)
+            return failAt(keys.error().message);
+        const std::vector<double> values = valuesAt(*keys, seconds, target.isRotation);
         if (target.width > 0 && values.size() != target.width)
             return failAt(fmt::format("sampler: its values have {} numbers", values.size()));
         if (target.number)

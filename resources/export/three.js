@@ -84,6 +84,13 @@ function lit(material, map, bands, panorama) {
     return copy;
 }
 
+/** Lets the material's textures stay sharp on surfaces that are seen from the side. */
+function sharpen(material, renderer) {
+    const samples = renderer.capabilities?.getMaxAnisotropy?.() ?? renderer.getMaxAnisotropy?.() ?? 1;
+    for (const texture of [material.map, material.emissiveMap, material.normalMap, material.roughnessMap])
+        if (texture) texture.anisotropy = samples;
+}
+
 /** A panorama that Limn wrote, as a background or an environment. */
 async function panorama(uri, url) {
     const response = await fetch(beside(uri, url));
@@ -158,6 +165,7 @@ export async function loadLimn(url, renderer, { shadows = true } = {}) {
         if (!object.isMesh) return;
         const { material } = object, page = material.userData.limn?.lightmapPage ?? 0, reflection = reflectionOf(object);
         const map = object.geometry.attributes.uv1 ? lightMaps[page] ?? null : null, key = `${material.uuid} ${Boolean(map)} ${reflection}`;
+        sharpen(material, renderer);
         if (!copies.has(key)) copies.set(key, lit(material, map, limn.lightmap?.bands ?? 1, reflections[reflection] ?? null));
         object.material = copies.get(key);
     });

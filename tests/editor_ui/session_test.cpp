@@ -4,12 +4,14 @@
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/panels/action.h"
 #include "editor_ui/panels/overlay_panel.h"
+#include "editor_ui/panels/timeline.h"
 #include "engine/files/image_file.h"
 #include "engine/files/project_file.h"
 #include "engine/techniques/technique_table.h"
 #include "tests/core/source_path.h"
 #include "tests/editor_ui/headless.h"
 #include "tests/editor_ui/small_session.h"
+#include "tests/gltf/gltf_builder.h"
 
 #include <algorithm>
 #include <atomic>
@@ -71,6 +73,38 @@ TEST_F(SessionTest, AnOpenedSceneIsBakedAndLitUntilItConverges) {
     EXPECT_EQ(session.layout()->instances.size(), session.scene()->instances.size());
     ASSERT_TRUE(session.field());
     EXPECT_FALSE(hasUnsavedChanges(session.state));
+}
+
+TEST_F(SessionTest, TimeMovesWhatTheFileAnimatesWithoutABakeOrAnEdit) {
+    GltfBuilder b = triangleScene();
+    b.mesh({{"attributes", {{"POSITION", b.vec3({{0, 0, 0}, {9, 0, 0}, {0, 0, 9}})}}}});
+    animate(b, {{"node", 0}, {"path", "translation"}}, scalars(b, {0, 2}),
+            b.vec3({{0, 1, 0}, {4, 1, 0}}));
+    const std::string path = (folder / "moving.glb").string();
+    std::ofstream(path, std::ios::binary) << b.glb();
+    Session session(options());
+    session.open(path);
+    ASSERT_TRUE(runUntilIdle(session));
+    ASSERT_TRUE(session.state.animation);
+    const auto place = [&] { return session.scene()->instances.at(0).toWorld[3]; };
+    ASSERT_TRUE(session.scene()->instances.at(0).dynamic);
+    const glm::vec4 atRest = place();
+    const Document document = session.state.document;
+    const double bakeSeconds = session.bakeSeconds();
+    session.state.seconds = 1;
+    ASSERT_TRUE(runUntilIdle(session));
+    EXPECT_EQ(place(), glm::vec4(2, 1, 0, 1));
+    session.state.seconds = 0.5;
+    ASSERT_TRUE(runUntilIdle(session));
+    EXPECT_EQ(place(), glm::vec4(1, 1, 0, 1));
+    session.state.seconds = 0;
+    ASSERT_TRUE(runUntilIdle(session));
+    EXPECT_EQ(place(), atRest);
+    EXPECT_EQ(session.state.document, document);
+    EXPECT_EQ(session.bakeSeconds(), bakeSeconds);
+    EXPECT_FALSE(hasUnsavedChanges(session.state));
+    advanceTime(session.state, 3.5); // of 2 s
+    EXPECT_EQ(session.state.seconds, 1.5);
 }
 
 TEST_F(SessionTest, APhotometricFileIsReadForTheLightThatIsSelected) {

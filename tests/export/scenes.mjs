@@ -72,6 +72,7 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
     const eye = from ? ['--eye', from.eye.join(), '--target', from.target.join(), '--fov', from.fov] : [];
     for (const file of ['irradiance.exr', 'indirect.exr', 'lit.exr', 'lit.png'])
         limn('render', ...scene, '--bake', bake, '--view', path.parse(file).name, '--width', width, '--height', height, ...eye,
+            '--spp', 1, '--gather-rays', 128, // engines see one point of a pixel, its middle
             ...(file.endsWith('.png') ? ['--tonemap', 'none'] : []), '-o', path.join(folder, `limn-${file}`));
     for (const [engine, view, options] of [
         ['three', 'irradiance', ['--encoding', 'ktx2-half']], ['three', 'irradiance', ['--lightmap-bands', 3]], ['babylon', 'indirect', []],

@@ -99,6 +99,20 @@ inline GltfBuilder triangleScene() {
     return b;
 }
 
+inline int scalars(GltfBuilder& b, const std::vector<float>& values) {
+    return b.accessor(b.view(values), "SCALAR", GltfBuilder::kFloat, values.size());
+}
+
+/// Adds a channel to the only animation.
+inline void animate(GltfBuilder& b, const nlohmann::json& target, int input, int output,
+                    const char* interpolation = "LINEAR") {
+    nlohmann::json& animation = b.json["animations"][0];
+    const std::size_t sampler = animation.contains("samplers") ? animation["samplers"].size() : 0;
+    animation["samplers"].push_back(
+        {{"input", input}, {"output", output}, {"interpolation", interpolation}});
+    animation["channels"].push_back({{"sampler", sampler}, {"target", target}});
+}
+
 inline bool hasRepair(const ImportedScene& scene, const std::string& text) {
     return std::ranges::any_of(scene.repairs, [&](const std::string& line) {
         return line.find(text) != std::string::npos;

@@ -109,6 +109,81 @@ TEST(GltfPose, LightsAndMorphWeightsChangeWithTime) {
     }));
 }
 
+/// Posing the document that was read at rest is reading it at that time.
+TEST(GltfPose, AnAnimationPosesADocumentAsImportingAtATimeDoes) {
+    GltfBuilder b = triangleScene();
+    const auto lamp = [](int index) {
+        return nlohmann::json{{"KHR_lights_punctual", {{"light", index}}}};
+    };
+    b.json["nodes"].push_back({{"translation", {1, 2, 3}}, {"extensions", lamp(0)}});
+    b.json["nodes"].push_back(
+        {{"rotation", {0, 0, 0.6, 0.8}}, {"children", {0, 1}}, {"camera", 0}});
+    b.json["nodes"].push_back({{"translation", {4, 0, 0}}, {"extensions", lamp(0)}});
+    b.json["nodes"].push_back({{"translation", {9, 9, 9}}}); // nothing is seen of it
+    b.json["scenes"][0]["nodes"] = {2, 3, 4};
+    b.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}}};
+    b.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"intensity", 7}, {"spot", nlohmann::json::object()}}};
+    const int times = scalars(b, {0, 2, 3});
+    const float h = std::sqrt(0.5f);
+    const std::vector<glm::vec4> turns{{0, 0, 0, 1}, {h, 0, 0, h}, {0, h, 0, h}};
+    animate(b, {{"node", 2}, {"path", "rotation"}}, times,
+            b.accessor(b.view(turns), "VEC4", GltfBuilder::kFloat, 3));
+    animate(b, {{"node", 2}, {"path", "translation"}}, times,
+            b.vec3({{0, 0, 0}, {5, 0, 0}, {0, 0, 1}}));
+    animate(b, {{"node", 0}, {"path", "scale"}}, times, b.vec3({{1, 1, 1}, {3, 1, 2}, {1, 1, 1}}));
+    animate(b, {{"node", 4}, {"path", "translation"}}, times,
+            b.vec3({{1, 1, 1}, {3, 1, 2}, {1, 1, 1}}));
+    animate(b,
+            {{"path", "pointer"},
+             {"extensions",
+              {{"KHR_animation_pointer",
+                {{"pointer", "/extensions/KHR_lights_punctual/lights/0/intensity"}}}}}},
+            times, scalars(b, {2, 6, 1}));
+    const Result<ImportedScene> rest = importAt(b, {});
+    ASSERT_TRUE(rest) << rest.error().message;
+    ASSERT_TRUE(rest->animation);
+    EXPECT_EQ(rest->animation->duration(), 3);
+    EXPECT_EQ(rest->animation->tracks.size(), 5U); // two lamps have one intensity
+    for (const double seconds : {0.1, 1.0, 2.5, 3.0, 8.0}) {
+        const Result<ImportedScene> there = importAt(b, seconds);
+        ASSERT_TRUE(there) << there.error().message;
+        const Scene expected = flatten(there->document, there->assets),
+                    scene = flatten(posedDocument(rest->document, *rest->animation, seconds),
+                                    rest->assets);
+        ASSERT_EQ(scene.instances.size(), expected.instances.size());
+        for (const glm::vec3 p : {glm::vec3(0), glm::vec3(1, 2, 3)})
+            expectNear(glm::vec3(scene.instances[0].toWorld * glm::vec4(p, 1)),
+                       glm::vec3(expected.instances[0].toWorld * glm::vec4(p, 1)));
+        ASSERT_EQ(scene.lights.size(), 2U);
+        for (std::size_t i = 0; i < 2; ++i) {
+            expectNear(scene.lights[i].position, expected.lights[i].position);
+            expectNear(scene.lights[i].direction, expected.lights[i].direction);
+            EXPECT_EQ(scene.lights[i].strength, expected.lights[i].strength);
+        }
+        expectNear(scene.cameras.at(0).eye, expected.cameras.at(0).eye);
+        expectNear(scene.cameras[0].target, expected.cameras[0].target);
+        expectNear(scene.cameras[0].up, expected.cameras[0].up);
+    }
+    Document moving = rest->document;
+    makeMovingDynamic(moving, *rest->animation);
+    EXPECT_TRUE(flatten(moving, rest->assets).instances.at(0).dynamic);
+    EXPECT_FALSE(flatten(rest->document, rest->assets).instances.at(0).dynamic);
+    EXPECT_FALSE(importAt(triangleScene(), {})->animation);
+}
+
+TEST(GltfPose, AMalformedAnimationLeavesTheSceneAtRest) {
+    GltfBuilder b = triangleScene();
+    animate(b, {{"node", 0}, {"path", "translation"}}, scalars(b, {3, 1, 2}),
+            b.vec3({{0, 0, 0}, {5, 0, 0}, {0, 0, 1}}));
+    const Result<ImportedScene> scene = importAt(b, {});
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_FALSE(scene->animation);
+    EXPECT_TRUE(std::ranges::any_of(scene->repairs, [](const std::string& line) {
+        return line.find("animations[0].channels[0].sampler: input") != std::string::npos;
+    }));
+}
+
 TEST(GltfPose, JointsMoveTheVerticesOfASkin) {
     const Result<ImportedScene> scene = importAt(bentStrip(), {});
     ASSERT_TRUE(scene) << scene.error().message;

@@ -93,20 +93,6 @@ inline GltfBuilder dracoScene(const std::vector<std::uint8_t>& bytes, std::size_
     return b;
 }
 
-inline int scalars(GltfBuilder& b, const std::vector<float>& values) {
-    return b.accessor(b.view(values), "SCALAR", GltfBuilder::kFloat, values.size());
-}
-
-/// Adds a channel to the only animation.
-inline void animate(GltfBuilder& b, const nlohmann::json& target, int input, int output,
-                    const char* interpolation = "LINEAR") {
-    nlohmann::json& animation = b.json["animations"][0];
-    const std::size_t sampler = animation.contains("samplers") ? animation["samplers"].size() : 0;
-    animation["samplers"].push_back(
-        {{"input", input}, {"output", output}, {"interpolation", interpolation}});
-    animation["channels"].push_back({{"sampler", sampler}, {"target", target}});
-}
-
 /// A strip along x on two joints, of which the second is bent up by 90 degrees at x = 1.
 inline GltfBuilder bentStrip() {
     GltfBuilder b;

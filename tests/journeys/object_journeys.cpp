@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Someone moves things and takes light elsewhere.
+#include "tests/core/source_path.h"
 #include "tests/journeys/journey.h"
 
 #include <chrono>
@@ -102,6 +103,39 @@ TEST_F(ObjectJourney, LightIsExportedAndTheExportIsOpened) {
     EXPECT_TRUE(sees("Short block", 60, outliner()));
     waitForLight();
     shot("4-opened");
+}
+
+TEST_F(ObjectJourney, TimeIsScrubbedAndPlayed) {
+    const std::string scene =
+        sourcePath("../shared/scenes/features/gdx-gltf/lightCameraAnimations.gltf");
+    if (lacks(scene))
+        return;
+    startScreen();
+    if (!screen)
+        return;
+    startEditor(scene);
+    waitForLight();
+    const ScreenRect row = {{picture().origin.x, upperHeight() - 20}, {picture().size.x, 50}};
+    EXPECT_TRUE(sees("0.00 s", 20, row));
+    const Image atRest = screen->picture();
+    clickAt(row.origin + glm::vec2(0.7f * row.size.x, 22)); // on the slider
+    rest();
+    EXPECT_TRUE(seesNoMore("0.00 s", 20));
+    waitForLight();
+    shot("1-scrubbed");
+    EXPECT_FALSE(screen->picture() == atRest);
+    click("Play", row);
+    rest(); // no tooltip covers the row
+    EXPECT_TRUE(sees("Pause", 20, row));
+    shot("2-plays");
+    click("Pause", row);
+    rest();
+    EXPECT_TRUE(sees("Play", 20, row));
+    click("Start", row);
+    rest();
+    EXPECT_TRUE(sees("0.00 s", 20, row));
+    waitForLight();
+    shot("3-at-rest");
 }
 
 } // namespace
