@@ -393,7 +393,9 @@ Exit runRender(const RenderCommand& options) {
           checkBakedLight(options)})
         if (!possible)
             return failed(possible.error().message);
-    const Result<ImportedScene> imported = openScene(options.scene);
+    SceneOptions asked = options.scene;
+    asked.import.joinsBacks = !options.bakedLight;
+    const Result<ImportedScene> imported = openScene(asked);
     if (!imported)
         return failed(imported.error().message);
     Scene scene = flatten(imported->document, imported->assets, options.scene.seconds);

@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/gltf/gltf_animation.h"
+#include "engine/gltf/gltf_backs.h"
 #include "engine/gltf/gltf_extensions.h"
 #include "engine/gltf/gltf_file.h"
 #include "engine/gltf/gltf_image.h"
@@ -233,10 +234,13 @@ static Result<ImportedScene> import(const std::string& path, const Progress& pro
         materials.push_back(readMaterial(model, i, repairs));
 
     auto assets = std::make_shared<Assets>();
-    const Result<MeshesOfGltf> meshes =
+    Result<MeshesOfGltf> meshes =
         readMeshes(model, *skins, materials, progress, assets->meshes, repairs);
     if (!meshes)
         return tl::make_unexpected(meshes.error());
+    if (options.joinsBacks)
+        repairs.add("pairs of triangles back to back made two-sided",
+                    joinBacks(meshes->parts, assets->meshes, materials));
 
     ImportedScene scene;
     scene.document.scenePath = path;

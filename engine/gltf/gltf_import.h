@@ -29,6 +29,9 @@ struct ImportOptions {
     /// Time at which animated nodes, lights and morph weights are read [s]; std::nullopt: as the
     /// file has them at rest.
     std::optional<double> seconds;
+    /// Triangles that lie back to back become two-sided, as joinBacks() says. Baked light needs
+    /// them apart, since each has texels of its own.
+    bool joinsBacks = true;
 };
 
 /// Reads a .gltf or .glb (glTF 2.0). Fails, with file and field, on what cannot be repaired:
