@@ -13,6 +13,7 @@ struct Request {
         NewFromScene,
         Open,
         OpenSkyImage,
+        ExtractSun,  ///< out of the sky's panorama, which makes it a light
         OpenProfile, ///< a photometric file, for the light `object`
         AddFile,     ///< a glTF below a group, a shape at `place`, or a texture of `object`
         Save,

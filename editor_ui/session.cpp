@@ -11,6 +11,7 @@
 #include "editor_ui/jobs/recent_files.h"
 #include "editor_ui/jobs/scene_changes.h"
 #include "engine/scene/find_object.h"
+#include "engine/scene/sky_sun.h"
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
@@ -124,6 +125,9 @@ void Session::handle(const Request& request) {
     case Request::Kind::Open:
     case Request::Kind::OpenSkyImage:
         open(request.path);
+        break;
+    case Request::Kind::ExtractSun:
+        makeSunALight();
         break;
     case Request::Kind::OpenProfile:
         openProfile(request.path, request.object);
@@ -296,6 +300,14 @@ void Session::takeSky() {
     }
     log(LogLine::Level::Info, "Opened " + (*read)->image);
     setSkyImage(state, **read);
+}
+
+void Session::makeSunALight() {
+    Sky sky = singleton<Sky>(state.document);
+    if (const std::optional<Light> sun = extractSun(sky))
+        addLightAndSky(state, *sun, sky);
+    else
+        complain("No sun", "the panorama shows nothing as small and bright as a sun");
 }
 
 void Session::openProfile(const std::string& path, ObjectId light) {

@@ -78,6 +78,7 @@ private:
     void answerRecovery(Request::Kind answer);
     void keepForRecovery();
     void takeSky();
+    void makeSunALight();
     void openProfile(const std::string& path, ObjectId light);
     void takeProfile();
     void addFile(const Request& request);

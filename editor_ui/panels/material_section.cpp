@@ -6,6 +6,7 @@
 #include "editor_ui/panels/field.h"
 #include "editor_ui/panels/file_browser.h"
 #include "editor_ui/panels/inspector_panel.h"
+#include "engine/scene/sky_sun.h"
 
 #include <imgui.h>
 
@@ -181,6 +182,18 @@ static void skyImageRows(FieldEdit& edit, Sky& sky) {
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     elidedText(shown.empty() ? "none" : shown, ImGui::GetContentRegionAvail().x);
+    const bool hasSun = sky.panorama && !sky.image.ends_with(kWithoutSun);
+    fieldLabel("Sun",
+               "The sky's light is summed over cells of ten degrees, which blurs the shadows "
+               "of a sun. As a light of its own it casts sharp ones");
+    ImGui::BeginDisabled(!hasSun);
+    if (ImGui::Button("Make it a light"))
+        edit.state.requests.push_back({Request::Kind::ExtractSun, {}});
+    ImGui::EndDisabled();
+    wrappedTooltip(hasSun
+                       ? "Cuts the sun out of the image and adds a sun of its direction, colour "
+                         "and illuminance [lux]"
+                       : "The image has no sun any more; undo or choose it again to put it back");
     fieldLabel("Strength", "Factor of the image's radiance");
     ImGui::SliderFloat("##strength", &sky.strength, 0, 100, "%.3f", ImGuiSliderFlags_Logarithmic);
     fieldEdited(edit, "Sky strength");

@@ -106,7 +106,7 @@ std::optional<Light> extractSun(Sky& sky) {
     for (const std::size_t p : sun->pixels)
         image.rgb[p] = glm::vec3(sun->around);
     sky.panorama = makeSkyImage(std::move(image));
-    sky.image += "#without-sun"; // the name stands for the pixels
+    sky.image += kWithoutSun;
     Light light{.name = "Sun", .kind = LightKind::Directional};
     const double c = std::cos(double(sky.rotation)), s = std::sin(double(sky.rotation));
     const glm::dvec3 d = sun->direction;

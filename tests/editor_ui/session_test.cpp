@@ -107,6 +107,39 @@ TEST_F(SessionTest, TimeMovesWhatTheFileAnimatesWithoutABakeOrAnEdit) {
     EXPECT_EQ(session.state.seconds, 1.5);
 }
 
+TEST_F(SessionTest, TheSunOfAPanoramaBecomesALightAndStaysOneInTheProject) {
+    const std::string path = (folder / "sun.exr").string();
+    ImageF image{64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(1))};
+    image.rgb[64 * 8 + 20] = glm::vec3(5000, 4000, 3000);
+    ASSERT_TRUE(writeExr(path, image));
+    Session session(options());
+    session.open(project);
+    ASSERT_TRUE(runUntilIdle(session));
+    const std::size_t lights = session.scene()->lights.size();
+    session.state.requests.push_back({Request::Kind::OpenSkyImage, path});
+    ASSERT_TRUE(runUntil(session, [&] { return session.scene()->sky.showsImage(); }));
+    session.state.requests.push_back({Request::Kind::ExtractSun, {}});
+    ASSERT_TRUE(runUntilIdle(session));
+    ASSERT_EQ(session.scene()->lights.size(), lights + 1);
+    EXPECT_EQ(session.scene()->lights.back().kind, LightKind::Directional);
+    EXPECT_EQ(session.scene()->sky.panorama->pixels.rgb[64 * 8 + 20], glm::vec3(1));
+    const std::string saved = (folder / "sun.limn").string();
+    ASSERT_TRUE(saveProject(saved, session.state.document));
+    const Result<ImportedScene> again = loadProject(saved);
+    ASSERT_TRUE(again) << again.error().message;
+    const Sky sky = singleton<Sky>(again->document);
+    ASSERT_TRUE(sky.showsImage());
+    EXPECT_EQ(sky.panorama->pixels.rgb, session.scene()->sky.panorama->pixels.rgb);
+    ASSERT_TRUE(undoEdit(session.state)); // sun and sky in one step
+    EXPECT_EQ(singleton<Sky>(session.state.document).image, path);
+
+    session.state.requests.push_back({Request::Kind::ExtractSun, {}});
+    session.update();
+    session.state.requests.push_back({Request::Kind::ExtractSun, {}});
+    session.update();
+    EXPECT_NE(session.state.log.back().text.find("No sun"), std::string::npos);
+}
+
 TEST_F(SessionTest, APhotometricFileIsReadForTheLightThatIsSelected) {
     Session session(options());
     session.open(project);
