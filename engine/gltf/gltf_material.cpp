@@ -3,6 +3,7 @@
 
 #include "engine/gltf/gltf_value.h"
 #include "engine/scene/light/light.h"
+#include "engine/scene/surface/dielectric.h"
 #include "engine/scene/surface/material_textures.h"
 
 #include <algorithm>
@@ -156,9 +157,42 @@ static glm::vec4 readColor(const tinygltf::Value* value, float missing, GltfRepa
     return color;
 }
 
+/// Applies the strength of KHR_materials_specular to what is no metal, by the index of refraction
+/// whose reflectance is as large. Of its colour the mean is taken; what light passes through keeps
+/// its index.
+static void readSpecular(const tinygltf::Material& source, Material& m, GltfRepairs& repairs) {
+    const auto* e = extension(source.extensions, "KHR_materials_specular");
+    if (!e)
+        return;
+    float strength = ranged(double(number(member(*e, "specularFactor"), 1)), 0, 1, repairs);
+    const tinygltf::Value* color = member(*e, "specularColorFactor");
+    if (color && color->IsArray() && color->ArrayLen() == 3) {
+        float mean = 0;
+        for (int c = 0; c < 3; ++c)
+            mean += ranged(double(number(&color->Get(c), 1)), 0, 1e6f, repairs) / 3;
+        strength *= mean;
+    }
+    repairs.add("textures of the strength and colour of reflections left out",
+                member(*e, "specularTexture") || member(*e, "specularColorTexture") ? 1 : 0);
+    if (m.transmission == 0)
+        m.ior = iorOfF0(dielectricF0(m.ior) * strength);
+}
+
+/// KHR_materials_unlit: the surface sends its colour, taken as nits, whatever light it is in, and
+/// reflects none.
+static void makeUnlit(Material& m) {
+    m.emission = glm::vec3(m.baseColor);
+    m.emissiveTexture = m.baseColorTexture;
+    m.baseColor = glm::vec4(glm::vec3(0), m.baseColor.w);
+    m.metallic = 0;
+    m.roughness = 1;
+    m.ior = 1;
+    m.normalTexture = m.metallicRoughnessTexture = {};
+}
+
 /// Converts KHR_materials_pbrSpecularGlossiness. A surface whose diffuse colour is black and whose
 /// reflection is stronger than that of a dielectric is a metal. Any other one is a dielectric, of
-/// which the strength and the colour of its reflection are left out.
+/// which the colour of its reflection is left out.
 static void readSpecularGlossiness(const tinygltf::Model& model, const tinygltf::Value& e,
                                    Material& m, GltfRepairs& repairs) {
     constexpr float kDielectric = 0.04f; // reflectance of an index of refraction of 1.5
@@ -172,6 +206,8 @@ static void readSpecularGlossiness(const tinygltf::Model& model, const tinygltf:
     m.baseColorTexture = readExtensionTexture(
         model, member(e, isMetal ? "specularGlossinessTexture" : "diffuseTexture"), repairs);
     m.metallicRoughnessTexture = {};
+    if (!isMetal && !member(e, "specularGlossinessTexture")) // by which the factor is multiplied
+        m.ior = iorOfF0((specular.x + specular.y + specular.z) / 3);
     repairs.add("materials of specular reflection and glossiness converted to metal and roughness");
     repairs.add("glossiness textures left out", member(e, "specularGlossinessTexture") ? 1 : 0);
 }
@@ -203,9 +239,13 @@ Material readMaterial(const tinygltf::Model& model, std::size_t index, GltfRepai
     m.emissiveTexture = readTexture(model, source.emissiveTexture, repairs);
     if (const auto* e = extension(source.extensions, "KHR_materials_pbrSpecularGlossiness"))
         readSpecularGlossiness(model, *e, m, repairs);
+    else
+        readSpecular(source, m, repairs);
     // Without its texture, nobody knows how much of a surface is meant to shine.
     if (source.emissiveTexture.index >= 0 && m.emissiveTexture.image < 0)
         m.emission = glm::vec3(0);
+    if (extension(source.extensions, "KHR_materials_unlit"))
+        makeUnlit(m);
     repairs.add("materials that read more than two sets of texture coordinates, of which the "
                 "viewport shows two",
                 uvSetsOf(m).size() > 2 ? 1 : 0);

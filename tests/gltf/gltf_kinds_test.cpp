@@ -5,6 +5,7 @@
 #include "engine/gltf/gltf_chunks.h"
 #include "engine/gltf/gltf_import.h"
 #include "engine/scene/light/rectangle_light.h"
+#include "engine/scene/surface/dielectric.h"
 #include "tests/gltf/gltf_builder.h"
 
 #include <algorithm>
@@ -370,11 +371,54 @@ TEST(GltfKinds, SpecularGlossinessBecomesMetalAndRoughness) {
     EXPECT_EQ(glm::vec3(paint.baseColor), glm::vec3(0.5f, 0.25f, 0.125f));
     EXPECT_EQ(paint.metallic, 0);
     EXPECT_EQ(paint.roughness, 0.75f);
+    EXPECT_NEAR(dielectricF0(paint.ior), 0.04f, 1e-6f);
+    const Material varnish =
+        imported({{"diffuseFactor", {0.5, 0.5, 0.5, 1}}, {"specularFactor", {0.2, 0.1, 0.3}}});
+    EXPECT_NEAR(dielectricF0(varnish.ior), 0.2f, 1e-6f);
     const Material gold =
         imported({{"diffuseFactor", {0, 0, 0, 1}}, {"specularFactor", {1, 0.75, 0.25}}});
     EXPECT_EQ(glm::vec3(gold.baseColor), glm::vec3(1, 0.75f, 0.25f));
     EXPECT_EQ(gold.metallic, 1);
     EXPECT_EQ(gold.roughness, 0);
+}
+
+/// A triangle's material with extensions.
+Material materialWith(const nlohmann::json& extensions, const nlohmann::json& more = {}) {
+    GltfBuilder b = triangleScene();
+    b.json["meshes"][0]["primitives"][0]["material"] = 0;
+    b.json["materials"] = {{{"extensions", extensions}}};
+    if (!more.is_null())
+        b.json["materials"][0].update(more);
+    return materialOf(imported(b));
+}
+
+/// Reflectance at normal incidence is that of the index of refraction times factor and colour.
+TEST(GltfKinds, TheStrengthOfReflectionsIsThatOfAnotherIndexOfRefraction) {
+    const auto f0 = [](const nlohmann::json& specular, double ior = 1.5) {
+        return dielectricF0(materialWith({{"KHR_materials_specular", specular},
+                                          {"KHR_materials_ior", {{"ior", ior}}}})
+                                .ior);
+    };
+    EXPECT_NEAR(f0(nlohmann::json::object()), 0.04f, 1e-6f);
+    EXPECT_NEAR(f0({{"specularFactor", 0.5}}), 0.02f, 1e-6f);
+    EXPECT_NEAR(f0({{"specularFactor", 0}}), 0, 1e-6f);
+    EXPECT_NEAR(f0({{"specularFactor", 0.5}}, 2), 0.5f / 9, 1e-6f);
+    EXPECT_NEAR(f0({{"specularColorFactor", {3, 2, 1}}}), 0.08f, 1e-6f);
+    EXPECT_NEAR(f0({{"specularColorFactor", {1e9, 1e9, 1e9}}}), 0.99f, 1e-4f);
+    const Material glass =
+        materialWith({{"KHR_materials_specular", {{"specularFactor", 0}}},
+                      {"KHR_materials_transmission", {{"transmissionFactor", 1}}}});
+    EXPECT_EQ(glass.ior, 1.5f);
+}
+
+TEST(GltfKinds, UnlitSurfacesSendTheirColourAndReflectNothing) {
+    const Material m =
+        materialWith({{"KHR_materials_unlit", nlohmann::json::object()}},
+                     {{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.125, 0.75}}}}});
+    EXPECT_EQ(m.emission, glm::vec3(0.5f, 0.25f, 0.125f));
+    EXPECT_EQ(m.baseColor, glm::vec4(0, 0, 0, 0.75f));
+    EXPECT_EQ(m.metallic, 0);
+    EXPECT_EQ(dielectricF0(m.ior), 0);
 }
 
 TEST(GltfKinds, TexturesMayReadAnySetOfCoordinates) {

@@ -32,6 +32,11 @@ float dielectricF0(float ior) {
     return float(root * root);
 }
 
+float iorOfF0(float reflectance) {
+    const double root = std::sqrt(std::clamp(double(reflectance), 0.0, 0.99));
+    return float((1 + root) / (1 - root));
+}
+
 glm::vec3 refractedDirection(glm::vec3 n, glm::vec3 toLight, float eta) {
     const float incident = std::clamp(glm::dot(n, toLight), 0.f, 1.f);
     const float sine2 = refractedSine2(incident, eta);

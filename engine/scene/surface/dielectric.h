@@ -37,6 +37,10 @@ float fresnelDielectric(float cosine, float eta);
 /// fresnelDielectric() at normal incidence from vacuum, ((ior - 1) / (ior + 1))^2.
 float dielectricF0(float ior);
 
+/// The index of refraction, >= 1, of which dielectricF0() is `reflectance`, which is limited to
+/// [0, 0.99].
+float iorOfF0(float reflectance);
+
 /// Direction in which light continues behind a boundary, by Snell's law. `n` and `toLight` are
 /// unit, point away from the boundary and lie on the same side of it; `eta` as above. 0 under total
 /// internal reflection, else unit.
