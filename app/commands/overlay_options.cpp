@@ -72,7 +72,7 @@ static Result<std::uint32_t> pickedNumber(const OverlayFlags& flags, const Overl
         return fail(fmt::format("--pick: the picture has {} x {} pixels", size.x, size.y));
     const glm::vec2 ndc = (pixel + 0.5f) / size * 2.f - 1.f;
     const glm::vec3 d = rayDirection(camera, size.x / size.y, ndc.x, -ndc.y);
-    const Hit hit = trace.closestHit({camera.eye, glm::normalize(d)});
+    const Hit hit = trace.closestHit({camera.eye, glm::normalize(d)}, TraceMask::Seen);
     const auto number = hit ? source.pickAt(trace.scene(), hit) : std::nullopt;
     if (!number)
         return fail("--pick: nothing at this pixel can be picked");

@@ -24,7 +24,7 @@ using Ids = std::unordered_set<ObjectId>;
 static std::optional<float> surfaceBelow(const TraceScene& trace, glm::vec3 from,
                                          const Ids& ignored) {
     Ray ray{from, kDown};
-    while (const Hit hit = trace.closestHit(ray)) {
+    while (const Hit hit = trace.closestHit(ray, TraceMask::Seen)) {
         if (!ignored.contains(trace.scene().instances[hit.instance].node))
             return hit.position.y;
         ray.tNear = hit.t + trace.epsilonAt(hit.position);

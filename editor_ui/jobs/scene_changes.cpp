@@ -20,7 +20,7 @@ namespace {
 bool sameSurface(const Material& a, const Material& b) {
     return a.alphaMode == b.alphaMode && a.alphaCutoff == b.alphaCutoff &&
            a.doubleSided == b.doubleSided && a.baseColor.w == b.baseColor.w &&
-           a.baseColorTexture == b.baseColorTexture;
+           a.baseColorTexture == b.baseColorTexture && isGlassSheet(a) == isGlassSheet(b);
 }
 
 bool sameBakedMaterial(const Material& a, const Material& b) {

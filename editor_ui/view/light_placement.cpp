@@ -43,7 +43,7 @@ static float freeDistance(const EditorState& state, glm::vec3 from, glm::vec3 di
     const float maxDistance = 2 * sceneRadius(state);
     if (!state.trace)
         return maxDistance;
-    const Hit hit = state.trace->closestHit({from, direction});
+    const Hit hit = state.trace->closestHit({from, direction}, TraceMask::Seen);
     return hit ? std::min(hit.t, maxDistance) : maxDistance;
 }
 

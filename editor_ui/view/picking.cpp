@@ -26,7 +26,8 @@ Hit hitUnder(const EditorState& state, glm::vec2 pixel) {
     if (!state.trace)
         return {};
     const Picture picture = state.view.picture();
-    return state.trace->closestHit({picture.camera.eye, pixelDirection(picture, pixel)});
+    return state.trace->closestHit({picture.camera.eye, pixelDirection(picture, pixel)},
+                                   TraceMask::Seen);
 }
 
 std::optional<PickedSurface> surfaceAt(const EditorState& state, glm::vec2 mouse) {

@@ -12,7 +12,7 @@ std::optional<SeenPoint> findSeenPoint(const TraceScene& trace, const PixelRays&
     const auto width = std::uint32_t(rays.size.x);
     const Sampler sampler{mixBits(seed, pixel), 0};
     const glm::vec2 corner(float(pixel % width), float(pixel / width));
-    const Hit hit = trace.closestHit(rays.through(corner + sampler.pair(0)));
+    const Hit hit = trace.closestHit(rays.through(corner + sampler.pair(0)), TraceMask::Seen);
     const std::optional<SurfacePoint> p = hit ? surfacePoint(trace, hit) : std::nullopt;
     return p ? std::optional(SeenPoint{hit, *p}) : std::nullopt;
 }

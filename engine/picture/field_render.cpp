@@ -31,7 +31,7 @@ static std::optional<PixelSum> sumOf(View view) {
 
 /// What View::Albedo and View::Normals show of a surface.
 static glm::vec3 surfaceColor(const TraceScene& trace, View view, const Ray& ray) {
-    const Hit hit = trace.closestHit(ray);
+    const Hit hit = trace.closestHit(ray, TraceMask::Seen);
     const std::optional<SurfacePoint> p = hit ? surfacePoint(trace, hit) : std::nullopt;
     if (!p)
         return glm::vec3(0);

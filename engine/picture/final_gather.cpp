@@ -43,7 +43,8 @@ double FinalGather::meanLight() const {
     double sum = 0;
     for (std::uint32_t y = 0; y < kRows; ++y)
         for (std::uint32_t x = 0; x < kColumns; ++x) {
-            const Hit hit = m_trace.closestHit(m_rays.through(cell * (glm::vec2(x, y) + 0.5f)));
+            const Hit hit = m_trace.closestHit(m_rays.through(cell * (glm::vec2(x, y) + 0.5f)),
+                                               TraceMask::Seen);
             const std::optional<SurfacePoint> p = hit ? surfacePoint(m_trace, hit) : std::nullopt;
             if (!p)
                 continue;

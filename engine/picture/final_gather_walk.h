@@ -11,7 +11,7 @@ template <GatherSink Sink>
 glm::vec3 FinalGather::walkSample(glm::uvec2 pixel, std::uint32_t s, const LightGuide* guide,
                                   const PartWeights& partWeights, Sink& sink) const {
     const PixelSample sample(m_rays, m_options.seed, pixel.y * m_options.width + pixel.x, s);
-    const Hit hit = m_trace.closestHit(sample.ray);
+    const Hit hit = m_trace.closestHit(sample.ray, TraceMask::Seen);
     const std::optional<SurfacePoint> p = hit ? surfacePoint(m_trace, hit) : std::nullopt;
     if (!p || !(m_options.view == View::Irradiance || sink.reflects(hit.instance)))
         return glm::vec3(0);

@@ -90,7 +90,7 @@ void walkRadiance(const PixelWalk& w, const PixelSample& sample, const Hit& hit,
 /// surfaces.
 template <PixelSink Sink>
 void walkSight(const PixelWalk& w, const PixelSample& sample, Sink& sink) {
-    const Hit hit = w.trace.closestHit(sample.ray);
+    const Hit hit = w.trace.closestHit(sample.ray, TraceMask::Seen);
     if (!hit) {
         sink.background(skyRadiance(w.trace.scene().sky, sample.ray.direction));
         return;
@@ -118,7 +118,7 @@ void walkPixel(const PixelWalk& w, const PixelSample& sample, Sink& sink) {
         walkSight(w, sample, sink);
         return;
     }
-    const Hit hit = w.trace.closestHit(sample.ray);
+    const Hit hit = w.trace.closestHit(sample.ray, TraceMask::Seen);
     const std::optional<SurfacePoint> p = hit ? surfacePoint(w.trace, hit) : std::nullopt;
     if (!p)
         return;

@@ -83,7 +83,7 @@ struct LightTracer {
 
     bool isSeen(const SurfacePoint& p, std::uint64_t& rays) const {
         ++rays;
-        return !trace.occluded(rayBetween(rayOrigin(trace, p), eye));
+        return !trace.occluded(rayBetween(rayOrigin(trace, p), eye), TraceMask::Seen);
     }
 
     /// Appends what photons [begin, end) add to the picture, times their number.
@@ -177,6 +177,7 @@ ReferenceResult renderLightTraced(const TraceScene& trace, const ReferenceOption
         return tracePhotons(trace, options, progress);
     ReferenceOptions seen = options, bounced = options;
     seen.showsDiffuseBounces = false;
+    seen.lampShadows = TraceMask::Seen; // photons bring what passes sheets
     bounced.view = View::Indirect;
     ReferenceResult sum = renderReference(trace, seen, partOf(progress, 0, 0.5f));
     const ReferenceResult added = tracePhotons(trace, bounced, partOf(progress, 0.5f, 1));

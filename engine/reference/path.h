@@ -21,6 +21,8 @@ struct PathContext {
     const Emitters& emitters;
     const SkyLight& sky;
     std::uint32_t maxBounces = kMaxBounces;
+    TraceMask lampShadows =
+        TraceMask::All; ///< what casts the shadows of lamps at the first surface
 };
 
 /// First of the Sampler's dimensions that paths use; callers may use those below it.

@@ -127,7 +127,7 @@ void tracePhoton(const TraceScene& trace, const LightSources& sources, std::uint
     while (channelSum(photon.power) > 0 && photon.bounces <= maxBounces &&
            specular <= kMaxSpecular) {
         ++rays;
-        const Hit hit = trace.closestHit(ray);
+        const Hit hit = trace.closestHit(ray, TraceMask::Seen);
         if (!hit)
             return;
         if (dimension == kEmissionDimensions) {

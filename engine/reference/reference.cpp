@@ -30,8 +30,8 @@ constexpr std::uint32_t kPassingSeed = 0x70617373; ///< separates the numbers of
 glm::vec3 sampleRadiance(const PathContext& c, const Hit& hit, const Ray& ray,
                          const SurfacePoint& p, bool diffuseBounces, const Sampler& sampler,
                          std::uint64_t& rays) {
-    const DirectSample direct =
-        sampleDirectLight(c.trace, p, sampler.pair(1).x, sampler.pair(kOnLightDimension), rays);
+    const DirectSample direct = sampleDirectLight(
+        c.trace, p, sampler.pair(1).x, sampler.pair(kOnLightDimension), rays, c.lampShadows);
     glm::vec3 indirect(0);
     if (diffuseBounces)
         indirect = p.albedo / glm::pi<float>() * sampleIndirectIrradiance(c, p, sampler, rays);
@@ -47,7 +47,7 @@ glm::vec3 sampleSight(const PathContext& c, Ray ray, bool diffuseBounces, const 
     glm::vec3 L(0), weight(1);
     for (std::uint32_t crossing = 0; crossing <= kMaxCrossings; ++crossing) {
         ++rays;
-        const Hit hit = c.trace.closestHit(ray);
+        const Hit hit = c.trace.closestHit(ray, TraceMask::Seen);
         if (!hit)
             return L + weight * skyRadiance(c.trace.scene().sky, ray.direction);
         const std::optional<SurfacePoint> p = surfacePoint(c.trace, hit);
@@ -70,7 +70,7 @@ glm::vec3 sampleView(const PathContext& c, const ReferenceOptions& o, const Ray&
     if (view == View::Lit)
         return sampleSight(c, ray, o.showsDiffuseBounces, sampler, rays);
     ++rays;
-    const Hit hit = c.trace.closestHit(ray);
+    const Hit hit = c.trace.closestHit(ray, TraceMask::Seen);
     const std::optional<SurfacePoint> p = hit ? surfacePoint(c.trace, hit) : std::nullopt;
     if (!p)
         return glm::vec3(0);
@@ -79,7 +79,7 @@ glm::vec3 sampleView(const PathContext& c, const ReferenceOptions& o, const Ray&
     if (view == View::Direct)
         return p->albedo / glm::pi<float>() *
                sampleDirectLight(c.trace, *p, sampler.pair(1).x, sampler.pair(kOnLightDimension),
-                                 rays)
+                                 rays, c.lampShadows)
                    .irradiance;
     const glm::vec3 E = sampleIndirectIrradiance(c, *p, sampler, rays);
     return view == View::Irradiance ? E : p->albedo / glm::pi<float>() * E;
@@ -119,7 +119,7 @@ ReferenceResult renderReference(const TraceScene& trace, const ReferenceOptions&
     assert(options.width > 0 && options.height > 0);
     const Emitters emitters = findEmitters(trace);
     const SkyLight sky = findSkyLight(trace.scene().sky);
-    const PathContext context{trace, emitters, sky, options.maxBounces};
+    const PathContext context{trace, emitters, sky, options.maxBounces, options.lampShadows};
     const PixelRays pixelRays(options.camera, options.width, options.height);
     const std::size_t pixels = std::size_t(options.width) * options.height;
     std::vector<HalfSums> sums(pixels);

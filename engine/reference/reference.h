@@ -22,6 +22,8 @@ struct ReferenceOptions {
     /// In Lit: whether surfaces that the eye sees, but not through glass, show the bounced light
     /// that they reflect diffusely.
     bool showsDiffuseBounces = true;
+    /// What casts the shadows of lamps at the first surface. Light tracing adds what passes sheets.
+    TraceMask lampShadows = TraceMask::All;
 };
 
 struct ReferenceResult {
@@ -35,14 +37,14 @@ struct ReferenceResult {
 
 /// Path-traced ground truth. Every surface is Lambertian with surfaceMaterial()'s albedo; in Lit
 /// the first one is also glossy and reflects all light by specularBrdf(), and where it transmits
-/// light, the eye looks through it (passRay()). To paths, it is opaque. Cosines are those of the
-/// interpolated vertex normals, bent by normal maps; the triangle itself bounds the visible
-/// hemisphere. The back of a one-sided surface is black, to the camera and to paths, and blocks
-/// light. Emission leaves the front only, unless the material is double-sided. Nothing is clamped
-/// and fireflies are not removed. Surface points, direct light, emitters and the sky are those of
-/// engine/shading, which pictures use as well; tests/reference holds them to closed forms.
-/// The pixel filter is a box. The result is identical for any number of threads. A cancelled call
-/// returns the samples so far.
+/// light, the eye looks through it (passRay()). To paths, sheets of it are absent (isGlassSheet())
+/// and bodies opaque. Cosines are those of the interpolated vertex normals, bent by normal maps;
+/// the triangle itself bounds the visible hemisphere. The back of a one-sided surface is black, to
+/// the camera and to paths, and blocks light. Emission leaves the front only, unless the material
+/// is double-sided. Nothing is clamped and fireflies are not removed. Surface points, direct light,
+/// emitters and the sky are those of engine/shading, which pictures use as well; tests/reference
+/// holds them to closed forms. The pixel filter is a box. The result is identical for any number of
+/// threads. A cancelled call returns the samples so far.
 ReferenceResult renderReference(const TraceScene& trace, const ReferenceOptions& options,
                                 const Progress& progress = {});
 

@@ -70,7 +70,7 @@ std::optional<RsmTexel> castTexel(const TraceScene& trace, const Scene& scene, c
     if (!(share > 0))
         return {};
     ++rays;
-    const Hit hit = trace.closestHit(ray);
+    const Hit hit = trace.closestHit(ray, TraceMask::Seen);
     if (!hit)
         return {};
     const Instance& instance = scene.instances[hit.instance];

@@ -92,6 +92,12 @@ inline constexpr float kBlendCutoff = 0.5f;
 /// Mask with kBlendCutoff.
 bool isCutout(const Material& material);
 
+/// Whether the surface is a sheet of glass that light passes through straight on: at least half of
+/// it transmits, and it neither shines nor bounds a body. Rays of light that look for no sheet meet
+/// none: shadows of lamps, paths that gather light and shadow maps leave them out. They then lose
+/// what a sheet reflects, 4 % of light straight on for clear glass, and what it tints.
+bool isGlassSheet(const Material& material);
+
 /// Alpha below which the surface is absent for rays, shadow maps and cameras alike; 0 for Opaque.
 float alphaCutoff(const Material& material);
 

@@ -33,12 +33,13 @@ Unshadowed unshadowed(const Light& light, const SurfacePoint& p) {
     return u;
 }
 
-bool inShadow(const TraceScene& trace, const SurfacePoint& p, const LightSample& s) {
+bool inShadow(const TraceScene& trace, const SurfacePoint& p, const LightSample& s,
+              TraceMask mask = TraceMask::All) {
     Ray ray;
     ray.origin = rayOrigin(trace, p);
     if (std::isinf(s.distance)) {
         ray.direction = s.toLight;
-        return trace.occluded(ray);
+        return trace.occluded(ray, mask);
     }
     const glm::vec3 light = p.position + s.toLight * s.distance;
     const glm::vec3 way = light - ray.origin;
@@ -47,12 +48,12 @@ bool inShadow(const TraceScene& trace, const SurfacePoint& p, const LightSample&
     if (!(ray.tFar > 0))
         return false;
     ray.direction = way / distance;
-    return trace.occluded(ray);
+    return trace.occluded(ray, mask);
 }
 
 /// Samples one point of a rectangle, uniform in solid angle.
 DirectSample sampleRectangle(const TraceScene& trace, const SurfacePoint& p, const Light& light,
-                             glm::vec2 uv) {
+                             glm::vec2 uv, TraceMask mask) {
     const LightRectangle rectangle = lightRectangle(light);
     const SphericalRectangle sphere(rectangle, p.position);
     const glm::vec3 onLight = sphere.at(uv);
@@ -62,18 +63,19 @@ DirectSample sampleRectangle(const TraceScene& trace, const SurfacePoint& p, con
     const glm::vec3 toLight = glm::normalize(way);
     const float projected = float(sphere.solidAngle()) * glm::dot(p.normal, toLight);
     if (!(projected > 0) ||
-        trace.blocked(rayOrigin(trace, p), trace.clearOf(onLight, rectangle.normal)))
+        trace.blocked(rayOrigin(trace, p), trace.clearOf(onLight, rectangle.normal), mask))
         return {};
     return {light.color * light.strength * projected, toLight};
 }
 
 /// Samples a light whose unshadowed irradiance `l` is not 0.
 DirectSample sampleShadowed(const TraceScene& trace, const SurfacePoint& p, const Light& light,
-                            const Unshadowed& l, glm::vec2 onLight, std::uint64_t& rays) {
+                            const Unshadowed& l, glm::vec2 onLight, std::uint64_t& rays,
+                            TraceMask mask = TraceMask::All) {
     ++rays;
     if (light.kind == LightKind::Rectangle)
-        return sampleRectangle(trace, p, light, onLight);
-    if (inShadow(trace, p, l.sample))
+        return sampleRectangle(trace, p, light, onLight, mask);
+    if (inShadow(trace, p, l.sample, mask))
         return {};
     return {l.irradiance, l.sample.toLight};
 }
@@ -151,7 +153,7 @@ void addDirectHarmonics(const TraceScene& trace, const SurfacePoint& p, int band
 }
 
 DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, float pick,
-                               glm::vec2 onLight, std::uint64_t& rays) {
+                               glm::vec2 onLight, std::uint64_t& rays, TraceMask mask) {
     float total = 0;
     for (const Light& light : trace.scene().lights)
         total += channelSum(unshadowed(light, p).irradiance);
@@ -170,7 +172,7 @@ DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, f
         if (pick * total < below)
             break;
     }
-    DirectSample s = sampleShadowed(trace, p, *light, chosen, onLight, rays);
+    DirectSample s = sampleShadowed(trace, p, *light, chosen, onLight, rays, mask);
     s.irradiance *= total / channelSum(chosen.irradiance); // 1 / probability
     return s;
 }

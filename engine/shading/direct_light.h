@@ -35,8 +35,10 @@ DirectSample sampleDirectLightFrom(const TraceScene& trace, const SurfacePoint& 
                                    const Light& light, glm::vec2 onLight, std::uint64_t& rays);
 
 /// Unbiased estimate of directIrradiance() with one shadow ray. `pick` in [0, 1) selects a light in
-/// proportion to its unshadowed contribution. `onLight` is that of sampleDirectLightFrom().
+/// proportion to its unshadowed contribution. `onLight` is that of sampleDirectLightFrom(). `mask`:
+/// what casts shadows.
 DirectSample sampleDirectLight(const TraceScene& trace, const SurfacePoint& p, float pick,
-                               glm::vec2 onLight, std::uint64_t& rays);
+                               glm::vec2 onLight, std::uint64_t& rays,
+                               TraceMask mask = TraceMask::All);
 
 } // namespace limn

@@ -43,9 +43,10 @@ struct SharedMesh {
 /// Data per instance that a hit needs.
 struct HitFrame {
     glm::mat4 toWorld{1};
-    float winding = 1;   ///< -1: the matrix mirrors, glTF flips the front
-    bool present = true; ///< has triangles at finite places
-    bool inWorld = true; ///< its triangles lie in the top structure, in world space
+    float winding = 1;                  ///< -1: the matrix mirrors, glTF flips the front
+    bool present = true;                ///< has triangles at finite places
+    bool inWorld = true;                ///< its triangles lie in the top structure, in world space
+    TraceMask kind = TraceMask::Static; ///< the tree that it belongs to
 };
 
 /// Static scenes of up to this many triangles are copied entirely to world space.
@@ -129,7 +130,7 @@ struct TraceScene::Impl {
     Scene scene;
     std::vector<HitFrame> frames; ///< per instance
     float magnitude = 0; ///< the power of two above the static scene's largest coordinate [m]
-    std::shared_ptr<const Trees> fixed, moving; ///< null where there is no such instance
+    std::shared_ptr<const Trees> fixed, moving, sheets; ///< null where there is no such instance
     mutable std::atomic<std::uint64_t> badRays = 0;
 
     bool traceable(const Ray& ray) const;
@@ -146,11 +147,11 @@ struct TraceScene::Impl {
     Impl(const Scene& s, const std::vector<bool>* only, const Impl* before);
     MeshKey keyOf(const Instance& instance) const;
     void placeInstances(const std::vector<bool>* only);
-    std::shared_ptr<const Trees> makeTrees(bool dynamic, RTCDevice shared) const;
-    void buildMeshes(Trees& trees, bool dynamic) const;
-    void buildTop(Trees& trees, bool dynamic) const;
-    bool belongs(std::size_t i, bool dynamic) const {
-        return frames[i].present && scene.instances[i].dynamic == dynamic;
+    std::shared_ptr<const Trees> makeTrees(TraceMask kind, RTCDevice shared) const;
+    void buildMeshes(Trees& trees, TraceMask kind) const;
+    void buildTop(Trees& trees, TraceMask kind) const;
+    bool belongs(std::size_t i, TraceMask kind) const {
+        return frames[i].present && frames[i].kind == kind;
     }
     RTCGeometry triangles(RTCDevice device, const Instance& instance, const SharedMesh& shared,
                           bool inWorld) const;
@@ -173,8 +174,11 @@ TraceScene::Impl::Impl(const Scene& s, const std::vector<bool>* only, const Impl
     if (!scene.assets)
         scene.assets = std::make_shared<Assets>();
     placeInstances(only);
-    fixed = before ? before->fixed : makeTrees(false, nullptr);
-    moving = makeTrees(true, fixed ? fixed->device : nullptr);
+    fixed = before ? before->fixed : makeTrees(TraceMask::Static, nullptr);
+    moving = makeTrees(TraceMask::Dynamic, fixed ? fixed->device : nullptr);
+    sheets = makeTrees(TraceMask::Sheets, fixed    ? fixed->device
+                                          : moving ? moving->device
+                                                   : nullptr);
     magnitude = before ? before->magnitude : magnitudeOf(scene);
 }
 
@@ -200,16 +204,19 @@ void TraceScene::Impl::placeInstances(const std::vector<bool>* only) {
         const bool copied = !instance.dynamic &&
                             (uses[instance.mesh] == 1 || staticTriangles <= kMaxCopiedTriangles);
         frame.inWorld = copied || !invertsWell(toWorld);
+        frame.kind = isGlassSheet(scene.materialOf(instance)) ? TraceMask::Sheets
+                     : instance.dynamic                       ? TraceMask::Dynamic
+                                                              : TraceMask::Static;
         frames.push_back(frame);
     }
 }
 
-std::shared_ptr<const TraceScene::Trees> TraceScene::Impl::makeTrees(bool dynamic,
+std::shared_ptr<const TraceScene::Trees> TraceScene::Impl::makeTrees(TraceMask kind,
                                                                      RTCDevice shared) const {
     std::shared_ptr<Trees> trees;
     AlphaImages images;
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        if (!belongs(i, dynamic))
+        if (!belongs(i, kind))
             continue;
         if (!trees)
             trees = std::make_shared<Trees>(shared);
@@ -223,8 +230,8 @@ std::shared_ptr<const TraceScene::Trees> TraceScene::Impl::makeTrees(bool dynami
     if (!trees)
         return nullptr;
     trees->assets = scene.assets;
-    buildMeshes(*trees, dynamic);
-    buildTop(*trees, dynamic);
+    buildMeshes(*trees, kind);
+    buildTop(*trees, kind);
     return trees;
 }
 
@@ -270,10 +277,10 @@ static void commitAlone(RTCScene scene) {
     tbb::task_arena(1).execute([&] { rtcCommitScene(scene); });
 }
 
-void TraceScene::Impl::buildMeshes(Trees& trees, bool dynamic) const {
+void TraceScene::Impl::buildMeshes(Trees& trees, TraceMask kind) const {
     std::map<MeshKey, const Instance*> needed;
     for (std::size_t i = 0; i < frames.size(); ++i)
-        if (belongs(i, dynamic) && !frames[i].inWorld)
+        if (belongs(i, kind) && !frames[i].inWorld)
             needed.try_emplace(keyOf(scene.instances[i]), &scene.instances[i]);
     const std::vector<std::pair<MeshKey, const Instance*>> work(needed.begin(), needed.end());
     parallelRanges(work.size(), 1, [&](std::size_t begin, std::size_t end) {
@@ -291,11 +298,11 @@ void TraceScene::Impl::buildMeshes(Trees& trees, bool dynamic) const {
     });
 }
 
-void TraceScene::Impl::buildTop(Trees& trees, bool dynamic) const {
+void TraceScene::Impl::buildTop(Trees& trees, TraceMask kind) const {
     trees.top = rtcNewScene(trees.device);
     setEmbreeFlags(trees.top);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-        if (!belongs(i, dynamic))
+        if (!belongs(i, kind))
             continue;
         const Instance& instance = scene.instances[i];
         const SharedMesh& shared = trees.meshes.at(keyOf(instance));
@@ -390,15 +397,19 @@ RTCRayHit TraceScene::Impl::intersect(const Ray& ray, TraceMask mask) const {
         return rh;
     if (fixed && asks(mask, TraceMask::Static))
         embreeIntersect(fixed->top, rh);
-    if (moving && asks(mask, TraceMask::Dynamic)) {
+    const auto also = [&](const std::shared_ptr<const Trees>& trees, TraceMask which) {
+        if (!trees || !asks(mask, which))
+            return;
         RTCRayHit other = unhit(ray);
         other.ray.tfar = rh.ray.tfar * (1 + 0x1p-20f); // as far as that and a little
-        embreeIntersect(moving->top, other);
+        embreeIntersect(trees->top, other);
         // Of equally distant hits, that of the lowest instance, as within a tree.
         if (met(other) && (!met(rh) || other.ray.tfar < rh.ray.tfar ||
                            (other.ray.tfar == rh.ray.tfar && instanceOf(other) < instanceOf(rh))))
             rh = other;
-    }
+    };
+    also(moving, TraceMask::Dynamic);
+    also(sheets, TraceMask::Sheets);
     return rh;
 }
 
@@ -467,7 +478,8 @@ bool TraceScene::occluded(const Ray& ray, TraceMask mask) const {
     };
     if (!m_impl->traceable(ray)) // tFar < 0 would be taken for Embree's answer
         return false;
-    return meets(m_impl->fixed, TraceMask::Static) || meets(m_impl->moving, TraceMask::Dynamic);
+    return meets(m_impl->fixed, TraceMask::Static) || meets(m_impl->moving, TraceMask::Dynamic) ||
+           meets(m_impl->sheets, TraceMask::Sheets);
 }
 
 std::uint32_t TraceScene::occludedTogether(std::span<const Ray> rays, TraceMask mask) const {
@@ -502,6 +514,7 @@ std::uint32_t TraceScene::occludedTogether(std::span<const Ray> rays, TraceMask 
     };
     trace(m_impl->fixed, TraceMask::Static);
     trace(m_impl->moving, TraceMask::Dynamic);
+    trace(m_impl->sheets, TraceMask::Sheets);
     return met;
 }
 

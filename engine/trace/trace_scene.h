@@ -38,8 +38,9 @@ struct Hit : SurfaceHit {
     glm::vec3 geometricNormal{0}; ///< unit, of the counter-clockwise front; not turned to the ray
 };
 
-/// Which surfaces a query considers.
-enum class TraceMask : std::uint32_t { Static = 1, Dynamic = 2, All = 3 };
+/// Which surfaces a query considers. Sheets of glass (isGlassSheet()) are apart, whether static or
+/// dynamic: light passes through them, but who looks sees them.
+enum class TraceMask : std::uint32_t { Static = 1, Dynamic = 2, All = 3, Sheets = 4, Seen = 7 };
 
 /// Embree's acceleration structure over a Scene: one tree of static triangles, in which frequently
 /// repeated meshes are instanced, and another tree of dynamic objects. Immutable; queries are

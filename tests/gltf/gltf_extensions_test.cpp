@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -26,6 +28,38 @@ TEST(GltfExtensions, AreThoseOfTheManual) {
                                      e.leftOut.empty() ? "nothing" : e.leftOut);
         EXPECT_NE(manual->find(table + "\n"), std::string::npos) << "it should have\n" << table;
     }
+}
+
+/// The sentences that a source hands to repairs.add(), without their counts.
+std::set<std::string> repairsIn(const std::string& source) {
+    std::set<std::string> found;
+    for (std::size_t call = source.find("repairs.add("); call != std::string::npos;
+         call = source.find("repairs.add(", call + 1)) {
+        std::string sentence; // of literals that follow each other
+        std::size_t next = source.find_first_not_of(" \n", source.find('(', call) + 1);
+        while (next != std::string::npos && source[next] == '"') {
+            const std::size_t end = source.find('"', next + 1);
+            sentence += source.substr(next + 1, end - next - 1);
+            next = source.find_first_not_of(" \n", end + 1);
+        }
+        if (!sentence.empty())
+            found.insert(sentence);
+    }
+    return found;
+}
+
+TEST(GltfRepairs, AreThoseOfTheManual) {
+    std::set<std::string> repairs;
+    for (const auto& entry : std::filesystem::directory_iterator(sourcePath("engine/gltf")))
+        if (entry.path().extension() == ".cpp")
+            repairs.merge(repairsIn(readFile(entry.path().string()).value()));
+    EXPECT_GT(repairs.size(), 30U);
+    std::string list;
+    for (const std::string& repair : repairs)
+        list += fmt::format("- {}\n", repair);
+    EXPECT_NE(readFile(sourcePath("docs/gltf.md"))->find("\n\n" + list + "\n"), std::string::npos)
+        << "it should have\n"
+        << list;
 }
 
 TEST(GltfExtensions, AreOrderedByWhetherTheyAreReadAndByName) {

@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/measure/compare.h"
+#include "engine/scene/surface/dielectric.h"
 #include "tests/core/sweep.h"
 #include "tests/trace/simple_scene.h"
 
@@ -108,6 +109,34 @@ TEST(LightTracing, AgreesWithPathsForEmittersAndTheSky) {
     sky.scene.sky.horizon = glm::vec3(1);
     sky.scene.sky.ground = glm::vec3(0.3f);
     expectAgreement(sky, optionsFor(View::Indirect), "sky");
+}
+
+/// Below a sheet of clear glass, paths see the sun as without it, and photons what the sheet lets
+/// through.
+TEST(LightTracing, ASheetOfGlassLetsTheSunThrough) {
+    SceneBuilder b;
+    b.addMaterial(lambert(glm::vec3(0.5f)));
+    Material glass = lambert(glm::vec3(1));
+    glass.transmission = 1;
+    glass.roughness = 0;
+    b.addMaterial(glass);
+    b.add(quad({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}));
+    b.add(quad({-2, 2, 2}, {4, 0, 0}, {0, 0, -4}, 1));
+    Light sun{.kind = LightKind::Directional, .direction = {0, -1, 0}, .strength = 1};
+    b.scene.lights = {sun};
+    const TraceScene trace(b.build());
+    ReferenceOptions o = optionsFor(View::Lit);
+    o.camera.eye = {0, 1.5f, 0.1f};
+    o.camera.target = {0, 0, 0};
+    o.camera.fovY = 0.4f;
+    o.samplesPerPixel = kSanitized ? 512 : 4096;
+    o.width = o.height = 4;
+    const double paths = meanOf(renderReference(trace, o).image);
+    const ReferenceResult photons = renderLightTraced(trace, o);
+    const double F = double(fresnelDielectric(1, 1.5f));
+    EXPECT_NEAR(meanOf(photons.image) / paths, 1 - F, 4 * photons.noise / 4 + 0.01);
+    o.view = View::Direct;
+    EXPECT_NEAR(meanOf(renderReference(trace, o).image), 0.5 / glm::pi<double>(), 1e-5);
 }
 
 // The floor's shading normals lean towards the lamp, so that it receives more than falls on it.

@@ -141,6 +141,36 @@ Mesh plates() {
     return simple::flatShaded(corners, 0);
 }
 
+TEST_F(ViewportShadows, SheetsOfGlassCastNone) {
+    simple::SceneBuilder b = planeAndRoof();
+    b.scene.lights = {lightOf(LightKind::Directional, {}, {0.3f, -1, 0.2f}, 3)};
+    options.camera.eye = {3, 4, 5};
+    const Scene opaque = b.build();
+    const Scene without = [] {
+        simple::SceneBuilder alone = plane();
+        alone.scene.lights = {lightOf(LightKind::Directional, {}, {0.3f, -1, 0.2f}, 3)};
+        return alone.build();
+    }();
+    Material glass = simple::lambert(glm::vec3(1));
+    glass.transmission = 1;
+    b.addMaterial(glass);
+    b.scene.instances[1].material = 1;
+    const ImageF shaded = draw(opaque, View::Direct), lit = draw(b.build(), View::Direct),
+                 empty = draw(without, View::Direct);
+    int same = 0, changed = 0;
+    for (std::uint32_t y = 0; y < options.height; ++y)
+        for (std::uint32_t x = 0; x < options.width; ++x) {
+            if (pixel(empty, x, y) == glm::vec3(0) || pixel(lit, x, y) == glm::vec3(0))
+                continue; // nothing, or the sheet itself, which reflects no light diffusely
+            same += glm::length(pixel(lit, x, y) - pixel(empty, x, y)) <
+                    1e-3f * glm::length(pixel(empty, x, y));
+            changed += pixel(shaded, x, y) == glm::vec3(0);
+            EXPECT_NEAR(pixel(lit, x, y).g, pixel(empty, x, y).g, 2e-3f * pixel(empty, x, y).g);
+        }
+    EXPECT_GT(same, 100);
+    EXPECT_GT(changed, 5);
+}
+
 TEST_F(ViewportShadows, OfAMeshOfManyTrianglesAgreeWithTracedRays) {
     simple::SceneBuilder b = plane();
     b.add(plates(), glm::translate(glm::mat4(1), glm::vec3(-3.8f, 1, -3.8f)));

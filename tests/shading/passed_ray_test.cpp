@@ -43,7 +43,7 @@ glm::vec3 downAt(float angle) {
 PassedRay behind(const TraceScene& trace, Ray ray, int crossings, float pick = 0.99f) {
     PassedRay passed{ray, glm::vec3(1)};
     for (int i = 0; i < crossings; ++i) {
-        const Hit hit = trace.closestHit(passed.ray);
+        const Hit hit = trace.closestHit(passed.ray, TraceMask::Seen);
         if (!hit)
             return {};
         const glm::vec3 weight = passed.weight;
@@ -63,7 +63,8 @@ TEST(PassedRay, GoesStraightThroughAThinSheetFromEitherSide) {
         const float transmitted = 1 - fresnelDielectric(std::cos(1.f), 1.5f);
         EXPECT_NEAR(passed.weight.x, 0.8f * transmitted, 1e-5f);
         EXPECT_NEAR(passed.weight.z, 0.2f * transmitted, 1e-5f);
-        EXPECT_FALSE(trace.closestHit(passed.ray)) << "it must not meet the sheet again";
+        EXPECT_FALSE(trace.closestHit(passed.ray, TraceMask::Seen))
+            << "it must not meet the sheet again";
     }
 }
 
@@ -124,7 +125,7 @@ TEST(PassedRay, IsScatteredByARoughSheetAboutItsDirection) {
     const Scene scene = sceneOf(frosted, pane());
     const TraceScene trace(scene);
     const Ray ray{{0, 1, 0}, {0, -1, 0}};
-    const Hit hit = trace.closestHit(ray);
+    const Hit hit = trace.closestHit(ray, TraceMask::Seen);
     glm::vec3 mean(0);
     constexpr int kSteps = 64;
     float least = 1;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -283,6 +284,38 @@ TEST(TraceScene, MasksTellStaticFromDynamic) {
     shorter.tFar = 1.5f;
     EXPECT_TRUE(trace.occluded(shorter));
     EXPECT_FALSE(trace.occluded(shorter, TraceMask::Static));
+}
+
+TEST(TraceScene, LightPassesSheetsOfGlassThatWhoLooksSees) {
+    for (const bool dynamic : {false, true}) {
+        SceneBuilder b;
+        b.addMaterial(lambert(glm::vec3(0.5f)));
+        Material glass = lambert(glm::vec3(1));
+        glass.transmission = 1;
+        b.addMaterial(glass);
+        b.add(quad({-1, -1, 0.5f}, {2, 0, 0}, {0, 2, 0}, 1), glm::mat4(1), dynamic);
+        b.add(quad({-1, -1, 2}, {2, 0, 0}, {0, 2, 0}));
+        const Ray ray{{0.1f, 0.2f, 0}, {0, 0, 1}, 0, 1.5f}, further{{0.1f, 0.2f, 0}, {0, 0, 1}};
+        {
+            const TraceScene trace(b.build());
+            EXPECT_FALSE(trace.occluded(ray));
+            EXPECT_EQ(trace.occludedTogether(std::array{ray, further}), 2U);
+            EXPECT_EQ(trace.closestHit(further).instance, 1U);
+            EXPECT_EQ(trace.closestHit(further, TraceMask::Static).instance, 1U);
+            EXPECT_TRUE(trace.occluded(ray, TraceMask::Seen));
+            EXPECT_EQ(trace.closestHit(further, TraceMask::Seen).instance, 0U);
+            const TraceScene again(b.build(), trace);
+            EXPECT_FALSE(again.occluded(ray));
+            EXPECT_EQ(again.closestHit(further, TraceMask::Seen).instance, 0U);
+        }
+        for (const auto& change :
+             {+[](Material& m) { m.thickness = 1; }, +[](Material& m) { m.transmission = 0.4f; },
+              +[](Material& m) { m.metallic = 0.6f; }, +[](Material& m) { m.emission.x = 1; }}) {
+            SceneBuilder opaque = b;
+            change(opaque.scene.materials[1]);
+            EXPECT_TRUE(TraceScene(opaque.build()).occluded(ray));
+        }
+    }
 }
 
 TEST(TraceScene, AMovedDynamicObjectIsMetAsInASceneOfItsOwn) {

@@ -38,7 +38,7 @@ std::vector<Source> findSources(const Scene& scene, const LightmapLayout& layout
         const auto count = std::uint32_t(scene.meshOf(instance).triangleCount());
         if (instance.dynamic || layout.instances[i].uv.empty() ||
             layout.meshes[instance.mesh].indices.size() != 3 * std::size_t(count) ||
-            isCutout(scene.materialOf(instance)))
+            isCutout(scene.materialOf(instance)) || isGlassSheet(scene.materialOf(instance)))
             continue;
         for (std::uint32_t t = 0; t < count; ++t)
             sources.push_back({i, t});

@@ -138,8 +138,8 @@ void GeometryPasses::drawDepth(VkCommandBuffer cmd, const RenderScene& scene,
     VkPipeline bound = VK_NULL_HANDLE;
     for (const GpuInstance& instance : scene.instances) {
         const GpuMesh& mesh = scene.meshes[instance.mesh];
-        if (mesh.indexCount == 0 || !isNear(instance.bounds, view) ||
-            !mayBeVisible(instance.bounds, view.toClip))
+        if (mesh.indexCount == 0 || materials.isGlassSheet[instance.material] ||
+            !isNear(instance.bounds, view) || !mayBeVisible(instance.bounds, view.toClip))
             continue;
         const std::uint32_t all = materials.features[instance.material];
         const std::uint32_t features = all & FEATURE_ALPHA_MASK ? all & kUsed : 0;

@@ -170,7 +170,7 @@ static bool sameTextures(const Material& a, const Material& b) {
 }
 
 static bool sameMask(const Material& a, const Material& b) {
-    return isCutout(a) == isCutout(b) &&
+    return limn::isGlassSheet(a) == limn::isGlassSheet(b) && isCutout(a) == isCutout(b) &&
            (!isCutout(a) || (a.baseColorTexture == b.baseColorTexture &&
                              alphaCutoff(a) == alphaCutoff(b) && a.baseColor.a == b.baseColor.a));
 }
@@ -195,11 +195,13 @@ bool MaterialSet::update(const Scene& scene) {
     createSets(m_materials.size());
     features.assign(m_materials.size(), 0);
     doubleSided.assign(m_materials.size(), false);
+    isGlassSheet.assign(m_materials.size(), false);
     for (std::uint32_t i = 0; i < m_materials.size(); ++i) {
         writeSet(i, m_materials[i]);
         if (isCutout(m_materials[i]))
             features[i] |= FEATURE_ALPHA_MASK;
         doubleSided[i] = m_materials[i].doubleSided;
+        isGlassSheet[i] = limn::isGlassSheet(m_materials[i]);
     }
     return newMasks;
 }

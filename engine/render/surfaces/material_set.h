@@ -39,6 +39,7 @@ public:
     /// FEATURE_* of each material.
     std::vector<std::uint32_t> features;
     std::vector<bool> doubleSided;
+    std::vector<bool> isGlassSheet;  ///< per material: casts no shadow
     std::vector<std::uint8_t> bands; ///< bands of indirect light that each material reflects
 
 private:

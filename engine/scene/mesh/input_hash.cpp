@@ -40,6 +40,8 @@ std::uint64_t hashSurface(const Scene& scene, const Material& m, std::uint64_t s
         h = hashValue(m.alphaCutoff, hashValue(m.baseColor.w, h));
         h = hashTexture(*scene.assets, m.baseColorTexture, h);
     }
+    if (isGlassSheet(m))
+        h = hashValue(std::uint32_t(1), h);
     return h;
 }
 

@@ -55,6 +55,11 @@ bool isCutout(const Material& material) {
     return material.alphaMode != AlphaMode::Opaque;
 }
 
+bool isGlassSheet(const Material& material) {
+    return material.thickness == 0 && material.emission == glm::vec3(0) &&
+           (1 - material.metallic) * material.transmission >= 0.5f;
+}
+
 float alphaCutoff(const Material& material) {
     // An alpha equal to the cutoff must not fall below it by rounding of the interpolation.
     constexpr float kRounding = 1 - 1e-5f;

@@ -71,7 +71,7 @@ bool bounce(const PhotonScene& scene, const PhotonSurface& surface, std::uint32_
 void follow(const PhotonScene& scene, Flight flight, const Sampler& sampler, PhotonMap& map) {
     for (;;) {
         ++map.fates.rays;
-        const Hit hit = scene.trace.closestHit({flight.origin, flight.direction});
+        const Hit hit = scene.trace.closestHit({flight.origin, flight.direction}, TraceMask::Seen);
         if (!hit)
             return finish(map.fates, Fate::Lost, flight.power);
         const auto surface = photonSurface(

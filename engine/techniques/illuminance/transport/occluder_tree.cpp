@@ -180,7 +180,7 @@ OccluderTree occluderTree(const Scene& scene) {
     std::vector<std::uint32_t> cutout;
     CutoutCollector collector(scene);
     for (const Instance& instance : scene.instances) {
-        if (instance.dynamic)
+        if (instance.dynamic || isGlassSheet(scene.materialOf(instance)))
             continue;
         const Mesh& mesh = scene.meshOf(instance);
         collector.begin(instance);

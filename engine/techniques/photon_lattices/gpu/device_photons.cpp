@@ -65,9 +65,9 @@ const TraceScene& DevicePhotons::traceOf(const LightingInput& input) {
         for (std::size_t i = 0; i < now.instances.size(); ++i) {
             const Instance &a = before.instances[i], &b = now.instances[i];
             const Material &m = before.materialOf(a), &n = now.materialOf(b);
-            const bool sameHoles = alphaCutoff(m) == alphaCutoff(n) &&
-                                   m.baseColor.w == n.baseColor.w &&
-                                   m.baseColorTexture == n.baseColorTexture;
+            const bool sameHoles =
+                alphaCutoff(m) == alphaCutoff(n) && isGlassSheet(m) == isGlassSheet(n) &&
+                m.baseColor.w == n.baseColor.w && m.baseColorTexture == n.baseColorTexture;
             if (a.dynamic != b.dynamic || a.mesh != b.mesh || !sameHoles ||
                 (a.toWorld != b.toWorld && (dynamicToo || !a.dynamic)))
                 return false;
