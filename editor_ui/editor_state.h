@@ -5,6 +5,7 @@
 #include "editor_ui/document/edit_history.h"
 #include "editor_ui/document/gesture.h"
 #include "editor_ui/document/selection.h"
+#include "editor_ui/document/typed_fields.h"
 #include "editor_ui/panels/error_history.h"
 #include "editor_ui/panels/export_dialog.h"
 #include "editor_ui/panels/file_browser.h"
@@ -65,20 +66,7 @@ struct ViewState {
     Picture picture() const { return {camera, origin, size}; }
 };
 
-/// Euler angles as typed by the user, valid while the object still has `rotation`.
-struct EulerEdit {
-    ObjectId id = 0;
-    glm::quat rotation{1, 0, 0, 0};
-    glm::vec3 degrees{0};
-};
-
 /// Everything the panels share. Owned by the session; no globals, no back pointers.
-/// What is typed into the inspector's field that takes a light's strength with any unit.
-struct TypedLight {
-    std::string text, problem; ///< why the text means nothing; empty: it does
-    ObjectId light = 0;        ///< that it is typed for
-};
-
 struct EditorState {
     Document document;
     std::shared_ptr<const Assets> assets; ///< never null

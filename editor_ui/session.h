@@ -65,8 +65,7 @@ public:
     /// What is being opened, saved, baked, exported, explained, relit or path-traced, results that
     /// are not taken yet included.
     WorkSet working() const;
-    /// True if none of this goes on.
-    bool idle() const;
+    bool idle() const; ///< true if none of this goes on
     /// Seconds of baking since the start, finished, cancelled or running.
     double bakeSeconds() const;
 
@@ -78,7 +77,6 @@ private:
     void answerRecovery(Request::Kind answer);
     void keepForRecovery();
     void takeSky();
-    void makeSunALight();
     void openProfile(const std::string& path, ObjectId light);
     void takeProfile();
     void addFile(const Request& request);
@@ -131,8 +129,7 @@ private:
     std::shared_ptr<const Document> m_followed; ///< the document as m_scene shows it; never null
     std::set<ObjectId> m_solo;                  ///< EditorState::solo, as m_scene shows it
     std::set<ObjectId> m_muted;                 ///< objects whose light m_scene leaves out
-    std::shared_ptr<const Scene> m_scene;
-    std::shared_ptr<const Scene> m_whole; ///< m_scene with what is muted; the same where nothing is
+    std::shared_ptr<const Scene> m_scene, m_whole; ///< the latter also with what is muted
     std::shared_ptr<const LightmapLayout> m_layout;
     BakedScene m_baked;
     Relit m_relit;
@@ -145,8 +142,7 @@ private:
     std::shared_ptr<const Scene> m_compared; ///< the scene that state.bake.changes speaks of
     bool m_quit = false;
     std::string m_savingTo, m_exportingTo;
-    ObjectId m_profileFor = 0; ///< the light that gets the profile that is being read
-    Request m_adding{Request::Kind::AddFile}; ///< the newest one whose file was not there yet
+    Request m_adding{Request::Kind::AddFile}; ///< the newest one whose file was read for an object
     double m_bakeSecondsDone = 0, m_bakeSecondsRunning = 0, m_bakeSecondsAtLightEdit = 0;
     bool m_lightEdited = false; ///< since the scene was opened
 };

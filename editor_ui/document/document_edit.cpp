@@ -6,6 +6,7 @@
 #include "editor_ui/editor_state.h"
 #include "engine/scene/find_object.h"
 #include "engine/scene/placement.h"
+#include "engine/scene/sky_sun.h"
 
 #include <algorithm>
 #include <limits>
@@ -73,6 +74,14 @@ void setSkyImage(EditorState& state, const Sky& image) {
     sky.image = image.image;
     sky.panorama = image.panorama;
     applyEdit(state, {"Sky image", {changeOfSingle(state.document, sky)}});
+}
+
+bool extractSkySun(EditorState& state) {
+    Sky sky = singleton<Sky>(state.document);
+    const std::optional<Light> sun = extractSun(sky);
+    if (sun)
+        addLightAndSky(state, *sun, sky);
+    return sun.has_value();
 }
 
 void setLightProfile(EditorState& state, ObjectId id, const LightProfile& profile) {

@@ -24,6 +24,9 @@ void addLightAndSky(EditorState& state, Light light, const Sky& sky);
 /// Gives the sky the kind, the image and the panorama of `image`.
 void setSkyImage(EditorState& state, const Sky& image);
 
+/// Makes the sun of the sky's panorama a light, as extractSun() does. False if it has none.
+bool extractSkySun(EditorState& state);
+
 /// Gives a point or spot light the profile of a photometric file and its intensity. Other lights
 /// become points.
 void setLightProfile(EditorState& state, ObjectId light, const LightProfile& profile);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/files/light_fields.h"
 #include "engine/files/material_fields.h"
 #include "engine/scene/bake_settings_fields.h"
 #include "engine/scene/document.h"
@@ -8,8 +9,6 @@
 
 #include <span>
 #include <string_view>
-
-#include <glm/gtc/constants.hpp>
 
 namespace limn {
 
@@ -42,35 +41,6 @@ void describeAssetFile(Fields& fields, T& f) {
     fields("path", f.path);
     fields("firstMesh", f.firstMesh);
     fields("firstImage", f.firstImage);
-}
-
-template <class Fields, class T>
-void describeProfile(Fields& fields, T& p) {
-    fields("name", p.name);
-    fields("peak", p.peak, kLightRange);
-    fields("firstVertical", p.firstVertical, FieldRange{0, 180});
-    fields("lastVertical", p.lastVertical, FieldRange{0, 180});
-    fields("rows", p.rows);
-    fields("columns", p.columns);
-    fields("share", p.share);
-}
-
-template <class Fields, class T>
-void describeLight(Fields& fields, T& l) {
-    fields("name", l.name);
-    fields("kind", l.kind, kLightNames);
-    fields("enabled", l.enabled);
-    fields.place("position", l.position);
-    fields("direction", l.direction);
-    fields("color", l.color, kLightRange);
-    fields("strength", l.strength, kLightRange);
-    fields("range", l.range, kNotNegative);
-    fields("innerAngle", l.innerAngle, FieldRange{0, glm::half_pi<double>()});
-    // The nearest float to pi/2 lies above it.
-    fields("outerAngle", l.outerAngle, FieldRange{0, double(glm::half_pi<float>())});
-    fields("size", l.size, FieldRange{kMinLightSize, kMaxLightSize});
-    fields("roll", l.roll);
-    fields.profile("profile", l.profile);
 }
 
 template <class Fields, class T>

@@ -39,7 +39,7 @@ protected:
         files = *format.write(room->view(), settings, name, {});
         const Result<void> written = writeExport(folder.file(name), format, files);
         EXPECT_TRUE(written) << written.error().message;
-        Result<ImportedScene> read = importGltf(folder.file(name));
+        Result<ImportedScene> read = importGltf(folder.file(name), {}, {.joinsBacks = false});
         EXPECT_TRUE(read) << read.error().message;
         EXPECT_TRUE(read->repairs.empty()) << read->repairs.front();
         return std::move(*read);
@@ -80,6 +80,23 @@ TEST_F(Gltf, IsImportedAgainWithTheSameLightsAndCameras) {
             EXPECT_FLOAT_EQ(light.outerAngle, same->outerAngle);
         }
     }
+}
+
+TEST_F(Gltf, IsOpenedAgainWithTheSameSidesOfSurfaces) {
+    reimported();
+    const Result<ImportedScene> again = importGltf(folder.file("room.gltf"));
+    ASSERT_TRUE(again) << again.error().message;
+    const Scene scene = flatten(again->document, again->assets);
+    const auto areas = [](const Scene& s) {
+        glm::dvec2 sum(0); // of one-sided and of two-sided surfaces
+        for (const Instance& i : s.instances)
+            sum[isTwoSided(s.materialOf(i)) ? 1 : 0] += worldArea(s, i);
+        return sum;
+    };
+    const glm::dvec2 now = areas(scene), before = areas(room->scene);
+    EXPECT_NEAR(now.x, before.x, 1e-4 * before.x);
+    EXPECT_NEAR(now.y, before.y, 1e-4 * before.y);
+    EXPECT_GT(before.y, 0);
 }
 
 TEST_F(Gltf, IsImportedAgainWithTheSameSurfaces) {

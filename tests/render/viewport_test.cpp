@@ -106,11 +106,9 @@ TEST_F(ViewportViews, DirectLightOfAProfileIsThatOfSampleLight) {
             Light light;
             light.kind = LightKind(1 + round % 2);
             light.position = {unit(random) - 0.5f, 0.5f + unit(random), unit(random) - 0.5f};
-            light.direction =
-                glm::normalize(glm::vec3(unit(random) - 0.5f, -1, unit(random) - 0.5f));
+            light.direction = glm::normalize(glm::vec3(unit(random) - 0.5f, -1, 0.2f));
             light.strength = 1 + 9 * unit(random);
             light.roll = 6 * unit(random);
-            light.innerAngle = 0.5f;
             light.outerAngle = 1.2f;
             if (k > 0)
                 light.profile = lopsidedProfile(k == 1 ? 1 : 16);
@@ -127,10 +125,9 @@ TEST_F(ViewportViews, DirectLightOfAProfileIsThatOfSampleLight) {
                 }
                 darkest = std::min(darkest, E);
                 brightest = std::max(brightest, E);
-                // Where a profile or a cone ends, what rounding moves is small beside 30 cd.
                 expectNear(pixel(image, x, y), glm::vec3(0.2f, 0.4f, 0.8f) * E / kPi, 3e-3f);
             }
-        EXPECT_GT(brightest, 1.5f * darkest); // something is tested
+        EXPECT_GT(brightest, 1.5f * darkest);
     }
 }
 
