@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <glm/vec3.hpp>
+#include "engine/scene/light/light.h"
 
 namespace limn {
+
+/// Whether Light::direction matters: a point shines the same to all sides unless it has a profile.
+inline bool hasDirection(const Light& light) {
+    return light.kind != LightKind::Point || light.profile;
+}
 
 /// Where a light comes from.
 struct LightAngles {

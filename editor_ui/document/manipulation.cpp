@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "editor_ui/document/manipulation.h"
 
+#include "editor_ui/document/light_angles.h"
 #include "editor_ui/document/object_rules.h"
 #include "engine/scene/light/rectangle_light.h"
 #include "engine/scene/placement.h"
@@ -85,14 +86,6 @@ static void manipulate(const Document& document, Node& node, const Manipulation&
     }
 }
 
-/// Roll at which the rectangle's width points along `width` as nearly as it can [rad].
-static float rollTowards(Light light, glm::vec3 width) {
-    light.roll = 0;
-    const LightRectangle r = lightRectangle(light);
-    return std::atan2(glm::dot(width, glm::normalize(r.halfHeight)),
-                      glm::dot(width, glm::normalize(r.halfWidth)));
-}
-
 static void manipulate(const Document& document, Light& light, const Manipulation& manipulation) {
     const bool rectangle = light.kind == LightKind::Rectangle;
     const glm::mat3 axes = ownAxes(document, light);
@@ -104,7 +97,7 @@ static void manipulate(const Document& document, Light& light, const Manipulatio
                                                         ? manipulation.scale[i]
                                                         : factorAlong(manipulation, axes[i])),
                            kMinLightSize, kMaxLightSize);
-    if (!turns(manipulation) || (light.kind == LightKind::Point && !light.profile))
+    if (!turns(manipulation) || !hasDirection(light))
         return;
     light.direction = glm::normalize(manipulation.turn * light.direction);
     if (rectangle || profileOf(light))
@@ -151,7 +144,7 @@ glm::mat3 ownAxes(const Document& document, const Object& object) {
     if (const auto* camera = std::get_if<Camera>(&object))
         return glm::transpose(glm::mat3(viewMatrix(*camera)));
     const auto* light = std::get_if<Light>(&object);
-    if (!light || (light->kind == LightKind::Point && !light->profile))
+    if (!light || !hasDirection(*light))
         return glm::mat3(1);
     const LightRectangle r = lightRectangle(*light);
     const glm::vec3 x = glm::normalize(r.halfWidth), y = glm::normalize(r.halfHeight);

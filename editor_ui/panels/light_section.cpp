@@ -34,7 +34,7 @@ static void colorRows(FieldEdit& edit, Light& light) {
     fieldEdited(edit, "Light temperature");
 }
 
-/// A field that takes strength and colour as lamps state them, and converts them.
+/// A text field for the light's strength and colour, in any of the units that applyTyped() knows.
 static void typedRow(FieldEdit& edit, Light& light) {
     TypedLight& typed = edit.state.typedLight;
     if (typed.light != edit.id)
@@ -92,6 +92,14 @@ static void strengthRows(FieldEdit& edit, Light& light) {
     typedRow(edit, light);
 }
 
+static void rollRow(FieldEdit& edit, Light& light, const char* tooltip) {
+    float degrees = glm::degrees(light.roll);
+    fieldLabel<Light>(edit, "Roll (\u00b0)", tooltip, &Light::roll);
+    if (ImGui::SliderFloat("##roll", &degrees, -180, 180, "%.1f\u00b0"))
+        light.roll = glm::radians(degrees);
+    fieldEdited(edit, "Light roll");
+}
+
 /// The photometric file of a point or a spot, and its plot.
 static void profileRows(FieldEdit& edit, Light& light) {
     fieldLabel<Light>(edit, "Profile",
@@ -113,12 +121,7 @@ static void profileRows(FieldEdit& edit, Light& light) {
     fieldLabel("Luminaire", "The name that the file gives");
     elidedText(light.profile->name.empty() ? "unnamed" : light.profile->name,
                ImGui::GetContentRegionAvail().x);
-    float degrees = glm::degrees(light.roll);
-    fieldLabel<Light>(edit, "Roll (\u00b0)", "Turns the profile about its axis [degrees]",
-                      &Light::roll);
-    if (ImGui::SliderFloat("##roll", &degrees, -180, 180, "%.1f\u00b0"))
-        light.roll = glm::radians(degrees);
-    fieldEdited(edit, "Light roll");
+    rollRow(edit, light, "Turns the profile about its axis [degrees]");
     profilePlot(light);
 }
 
@@ -166,12 +169,7 @@ static void rectangleRows(FieldEdit& edit, Light& light) {
     ImGui::DragFloat2("##size", &light.size.x, 0.01f, kMinLightSize, kMaxLightSize, "%.3f",
                       ImGuiSliderFlags_AlwaysClamp);
     fieldEdited(edit, "Light size");
-    float degrees = glm::degrees(light.roll);
-    fieldLabel<Light>(edit, "Roll (\u00b0)", "Turns the rectangle about its direction [degrees]",
-                      &Light::roll);
-    if (ImGui::SliderFloat("##roll", &degrees, -180, 180, "%.1f\u00b0"))
-        light.roll = glm::radians(degrees);
-    fieldEdited(edit, "Light roll");
+    rollRow(edit, light, "Turns the rectangle about its direction [degrees]");
 }
 
 static void rangeRow(FieldEdit& edit, Light& light) {
@@ -204,7 +202,7 @@ static void placeRows(FieldEdit& edit, Light& light) {
                                    : "In the coordinates of the scene file [m]");
     positionField("##position", light.position, edit.state.document.origin);
     fieldEdited(edit, "Move");
-    if (light.kind != LightKind::Point || light.profile)
+    if (hasDirection(light))
         directionRows(edit, light);
 }
 

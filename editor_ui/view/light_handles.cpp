@@ -70,7 +70,7 @@ GizmoFrame frameAlong(glm::vec3 origin, glm::vec3 axis) {
 
 std::vector<LightGrip> lightGrips(const Picture& picture, const Light& light) {
     std::vector<LightGrip> grips;
-    if (light.kind != LightKind::Point || light.profile)
+    if (hasDirection(light))
         grips.push_back(
             {LightPart::Direction,
              light.position + light.direction * reachOf(picture, light, LightPart::Direction)});

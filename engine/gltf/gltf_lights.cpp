@@ -84,10 +84,7 @@ static glm::vec3 colorOf(const tinygltf::Value& source, GltfRepairs& repairs) {
 
 /// Light::roll of a light that its node's X axis turns.
 static float rollOf(const Light& light, const glm::mat4& toWorld) {
-    const LightRectangle level = lightRectangle(light);
-    const glm::vec3 across = axis(toWorld, {1, 0, 0}, level.halfWidth);
-    return std::atan2(glm::dot(across, glm::normalize(level.halfHeight)),
-                      glm::dot(across, glm::normalize(level.halfWidth)));
+    return rollTowards(light, axis(toWorld, {1, 0, 0}, lightRectangle(light).halfWidth));
 }
 
 /// Adds a light of EXT_lights_area, whose size grows with the largest scale of its node.

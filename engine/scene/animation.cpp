@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -112,10 +111,7 @@ void carry(Light& light, const glm::dmat4& by) {
     const glm::vec3 width = turned(by, glm::normalize(before.halfWidth));
     light.position = glm::vec3(by * glm::dvec4(light.position, 1));
     light.direction = turned(by, light.direction);
-    light.roll = 0;
-    const LightRectangle level = lightRectangle(light);
-    light.roll = std::atan2(glm::dot(width, glm::normalize(level.halfHeight)),
-                            glm::dot(width, glm::normalize(level.halfWidth)));
+    light.roll = rollTowards(light, width);
 }
 
 void carry(Camera& camera, const glm::dmat4& by) {

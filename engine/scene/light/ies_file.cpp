@@ -134,8 +134,9 @@ std::pair<std::size_t, double> locate(const std::vector<double>& angles, double 
     return {i, std::clamp((x - angles[i]) / (angles[i + 1] - angles[i]), 0.0, 1.0)};
 }
 
-/// Brings a horizontal angle [degrees] into the range that was measured, by the symmetry that the
-/// range stands for.
+/// The measured horizontal angle [degrees] whose intensities are those of another one. Angles up to
+/// 90 or 180 degrees, or from 90 to 270, say that the luminaire is symmetric about two planes or
+/// one.
 double folded(double horizontal, double first, double last) {
     double h = std::fmod(horizontal, 360.0);
     if (first == 90 && last == 270) {

@@ -63,6 +63,13 @@ LightRectangle lightRectangle(const Light& light) {
     return r;
 }
 
+float rollTowards(Light light, glm::vec3 width) {
+    light.roll = 0;
+    const LightRectangle level = lightRectangle(light);
+    return std::atan2(glm::dot(width, glm::normalize(level.halfHeight)),
+                      glm::dot(width, glm::normalize(level.halfWidth)));
+}
+
 float rectangleIrradiance(const LightRectangle& r, glm::vec3 p, glm::vec3 n) {
     const glm::dvec3 centre = glm::dvec3(r.centre) - glm::dvec3(p);
     const glm::dvec3 u(r.halfWidth), v(r.halfHeight), normal(n);

@@ -23,6 +23,10 @@ struct LightRectangle {
 };
 LightRectangle lightRectangle(const Light& light);
 
+/// Light::roll [rad] at which the rectangle's width points along `width`, of any length, as nearly
+/// as it can.
+float rollTowards(Light light, glm::vec3 width);
+
 /// Unshadowed irradiance [W m^-2] per unit of radiance at `p` on a plane with unit normal `n`, in
 /// [0, pi]; 0 behind the rectangle and in its plane. The part of the rectangle below the receiver's
 /// horizon is clipped.

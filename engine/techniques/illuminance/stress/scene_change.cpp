@@ -67,10 +67,7 @@ static void turnLight(Light& l, const glm::mat3& rotation) {
     const glm::vec3 width = rotation * lightRectangle(l).halfWidth;
     l.position = rotation * l.position;
     l.direction = glm::normalize(rotation * l.direction);
-    l.roll = 0;
-    const LightRectangle level = lightRectangle(l);
-    l.roll = std::atan2(glm::dot(width, glm::normalize(level.halfHeight)),
-                        glm::dot(width, glm::normalize(level.halfWidth)));
+    l.roll = rollTowards(l, width);
 }
 
 Scene turnedScene(Scene scene, const glm::mat3& rotation) {
