@@ -2,7 +2,7 @@
 #include "engine/export/lightmap_file.h"
 
 #include "engine/export/gltf_scene.h"
-#include "engine/files/image_file.h"
+#include "engine/files/exr_image.h"
 #include "engine/files/ktx2.h"
 #include "engine/scene/export_settings_fields.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/files/hdr_image.h"
 
-#include "engine/files/flip_rows.h"
 #include "engine/scene/decode_image.h"
 
 #include <algorithm>
@@ -121,6 +120,15 @@ Result<void> readRow(Bytes& rest, std::vector<Rgbe>& row) {
         rest = rest.subspan(texel.size());
     }
     return {};
+}
+
+/// Turns an image upside down.
+void flipRows(ImageF& image) {
+    const auto row = [&](std::uint32_t y) {
+        return image.rgb.begin() + std::ptrdiff_t(y) * image.width;
+    };
+    for (std::uint32_t y = 0; y < image.height / 2; ++y)
+        std::swap_ranges(row(y), row(y + 1), row(image.height - 1 - y));
 }
 
 } // namespace

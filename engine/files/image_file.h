@@ -13,9 +13,6 @@ namespace limn {
 /// complete.
 Result<void> writeExr(const std::string& path, const ImageF& image);
 
-/// The bytes of the file that writeExr() writes.
-Result<std::string> encodeExr(const ImageF& image);
-
 /// Reads an EXR or .hdr with R, G, B channels. Fails, before allocating, if it would not fit into
 /// memory.
 Result<ImageF> readFloatImage(const std::string& path, const MemoryBudget& memory = {});

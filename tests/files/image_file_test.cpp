@@ -112,23 +112,6 @@ TEST(ImageFile, AnRgbeFileSaysHowItsTexelsAreMeant) {
               std::string::npos);
 }
 
-/// Every line says which one it is, whatever their order.
-TEST(ImageFile, AnExrMayStoreItsLinesFromTheLastOn) {
-    const TemporaryFolder folder;
-    ImageF image{3, 40, {}};
-    for (int i = 0; i < 120; ++i)
-        image.rgb.emplace_back(float(i), 1, -float(i));
-    std::string bytes = *encodeExr(image);
-    const std::string name("lineOrder\0lineOrder\0\1\0\0\0", 24);
-    const std::size_t order = bytes.find(name);
-    ASSERT_NE(order, std::string::npos);
-    bytes[order + name.size()] = 1;
-    writeFile(folder.file("i.exr"), bytes);
-    const Result<ImageF> again = readFloatImage(folder.file("i.exr"));
-    ASSERT_TRUE(again) << again.error().message;
-    EXPECT_TRUE(*again == image);
-}
-
 // stb 2.27 waits for ever for the rest of a packed row, and makes up that of a plain one.
 TEST(ImageFile, AnRgbeFileThatEndsTooSoonIsRefused) {
     const TemporaryFolder folder;

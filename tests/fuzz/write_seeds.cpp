@@ -16,8 +16,14 @@
 #include <string>
 #include <vector>
 
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
+#include <ImfStdIO.h>
+#include <ImfTiledOutputFile.h>
 #include <stb/stb_image_write.h>
-#include <tinyexr.h>
 #include <turbojpeg.h>
 #include <webp/encode.h>
 
@@ -100,48 +106,39 @@ void writeImages(const TemporaryFolder&, const auto& write) {
     }
 }
 
-std::string exr(int compression, int type) {
+std::string exr(Imf::Compression compression, bool inTiles) {
     constexpr int kWidth = 5, kHeight = 40;
     std::vector<float> plane;
     for (int i = 0; i < kWidth * kHeight; ++i)
         plane.push_back(float(i % 7) * 0.25f);
-    float* const planes[3] = {plane.data(), plane.data(), plane.data()};
-    EXRImage image;
-    InitEXRImage(&image);
-    image.num_channels = 3;
-    image.images = reinterpret_cast<unsigned char**>(const_cast<float**>(planes));
-    image.width = kWidth;
-    image.height = kHeight;
-    EXRChannelInfo channels[3] = {};
-    for (int c = 0; c < 3; ++c)
-        channels[c].name[0] = "BGR"[c];
-    int given[3] = {TINYEXR_PIXELTYPE_FLOAT, TINYEXR_PIXELTYPE_FLOAT, TINYEXR_PIXELTYPE_FLOAT};
-    int wanted[3] = {type, type, type};
-    EXRHeader header;
-    InitEXRHeader(&header);
-    header.num_channels = 3;
-    header.channels = channels;
-    header.pixel_types = given;
-    header.requested_pixel_types = wanted;
-    header.compression_type = compression;
-    unsigned char* memory = nullptr;
-    const char* problem = nullptr;
-    const std::size_t size = SaveEXRImageToMemory(&image, &header, &memory, &problem);
-    const std::string out(reinterpret_cast<const char*>(memory), size);
-    std::free(memory);
-    return out;
+    Imf::Header header(kWidth, kHeight);
+    header.compression() = compression;
+    Imf::FrameBuffer pixels;
+    for (const char* name : {"B", "G", "R"}) {
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        pixels.insert(name, Imf::Slice::Make(Imf::FLOAT, plane.data(), header.dataWindow()));
+    }
+    Imf::addChromaticities(header, {{0.7f, 0.3f}, {0.2f, 0.7f}, {0.15f, 0.05f}, {0.33f, 0.33f}});
+    Imf::StdOSStream out;
+    if (inTiles) {
+        header.setTileDescription({4, 4, Imf::MIPMAP_LEVELS});
+        Imf::TiledOutputFile file(out, header, 0);
+        file.setFrameBuffer(pixels);
+        for (int level = 0; level < file.numLevels(); ++level)
+            file.writeTiles(0, file.numXTiles(level) - 1, 0, file.numYTiles(level) - 1, level);
+    } else {
+        Imf::OutputFile file(out, header, 0);
+        file.setFrameBuffer(pixels);
+        file.writePixels(kHeight);
+    }
+    return out.str();
 }
 
 void writeFloatImages(const TemporaryFolder& folder, const auto& write) {
-    const std::pair<int, const char*> kinds[] = {{TINYEXR_COMPRESSIONTYPE_NONE, "none"},
-                                                 {TINYEXR_COMPRESSIONTYPE_RLE, "rle"},
-                                                 {TINYEXR_COMPRESSIONTYPE_ZIPS, "zips"},
-                                                 {TINYEXR_COMPRESSIONTYPE_ZIP, "zip"},
-                                                 {TINYEXR_COMPRESSIONTYPE_PIZ, "piz"}};
-    for (const auto& [compression, name] : kinds) {
-        write(name + std::string("_half.exr"), exr(compression, TINYEXR_PIXELTYPE_HALF));
-        write(name + std::string("_float.exr"), exr(compression, TINYEXR_PIXELTYPE_FLOAT));
-    }
+    for (int i = Imf::NO_COMPRESSION; i < Imf::NUM_COMPRESSION_METHODS; ++i)
+        for (const bool inTiles : {false, true})
+            write("compression" + std::to_string(i) + (inTiles ? "_tiles.exr" : "_lines.exr"),
+                  exr(Imf::Compression(i), inTiles));
     (void)writeExr(folder.file("own.exr"), {2, 2, std::vector<glm::vec3>(4, {1, 2, 3})});
     write("own.exr", fileBytes(folder.file("own.exr")));
     for (const int width : {4, 12}) { // rows of fewer than 8 texels are not packed
