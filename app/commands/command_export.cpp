@@ -204,8 +204,9 @@ Exit runExport(const ExportCommand& options) {
                         forecast.detail, settings.detail));
     for (const Light& light : lit->scene->lights)
         if (profileOf(light) && shines(light))
-            logWarning(fmt::format("light '{}': the file spreads its flux evenly; it has no IES "
-                                   "profiles. The lightmap has them",
+            logWarning(fmt::format("light '{}': readers without EXT_lights_ies spread its flux "
+                                   "evenly, and so do the formats babylon, json, limnrt and web. "
+                                   "The lightmap has its profile",
                                    light.name));
     if (!options.json)
         fmt::print("About {}{}\n", bytesText(forecast.bytes), lightmapText(forecast));

@@ -27,7 +27,8 @@ static ExportSettings ownSettings(ExportSettings settings) {
 static Result<std::vector<ExportFile>> write(const ExportScene& scene,
                                              const ExportSettings& settings,
                                              const std::string& name, const Progress& progress) {
-    LitSceneParts parts{.reflections = kReflections};
+    // Its loader adds a light with a profile to the one without, which other loaders show.
+    LitSceneParts parts{.reflections = kReflections, .profiles = false};
     if (!scene.field.grid.empty()) {
         const Sh3 mean = meanProbe(scene.field);
         parts.extras["probe"] = {

@@ -34,7 +34,8 @@ Result<std::vector<ExportFile>> litScene(const ExportScene& scene, const ExportS
                         .cut = map->cut.get(),
                         .extras = std::move(around->json),
                         .packing = {.quantize = settings.quantize, .meshopt = settings.meshopt},
-                        .reflections = std::move(around->ofInstance)};
+                        .reflections = std::move(around->ofInstance),
+                        .profiles = parts.profiles};
     options.extras["lightmap"] = lightmapJson(map->first, settings, map->files);
     if (map->error)
         options.extras["lightmap"]["error"] = errorJson(*map->error);

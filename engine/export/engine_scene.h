@@ -19,6 +19,7 @@ struct LitSceneParts {
     std::uint32_t reflections = 0; ///< the most panoramas of what metal reflects
     /// Of the sky's panorama and those of reflections: Exr, or half floats without Zstandard.
     TextureEncoding panoramas = TextureEncoding::Ktx2Half;
+    bool profiles = true; ///< GltfOptions::profiles
 };
 
 /// The scene as glTF with its lightmap beside it, "room-lightmap.ktx2" of "room.gltf", encoded and

@@ -21,11 +21,6 @@ glm::mat4 frame(glm::vec3 position, glm::vec3 direction, glm::vec3 across) {
             glm::vec4(position, 1)};
 }
 
-glm::vec3 anyAcross(glm::vec3 direction) {
-    const glm::vec3 other = glm::abs(direction.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    return glm::normalize(glm::cross(other, direction));
-}
-
 const char* typeOf(LightKind kind) {
     switch (kind) {
     case LightKind::Directional:
@@ -40,6 +35,16 @@ const char* typeOf(LightKind kind) {
     return "";
 }
 
+/// Colours of glTF end at 1; what is brighter is in the intensity.
+struct Intensity {
+    Json color;
+    float factor = 1;
+
+    explicit Intensity(glm::vec3 c) : factor(std::max({c.x, c.y, c.z, 1.f})) {
+        color = {c.x / factor, c.y / factor, c.z / factor};
+    }
+};
+
 } // namespace
 
 Json matrixJson(const glm::mat4& m) {
@@ -52,13 +57,11 @@ Json matrixJson(const glm::mat4& m) {
 
 Json lightJson(const Light& whole) {
     const Light light = withoutProfile(whole);
-    // Colours end at 1; what is brighter is in the intensity.
-    const glm::vec3 c = light.color;
-    const float maximum = std::max({c.x, c.y, c.z, 1.f});
+    const Intensity intensity(light.color);
     Json json = {{"name", light.name},
                  {"type", typeOf(light.kind)},
-                 {"color", {c.x / maximum, c.y / maximum, c.z / maximum}},
-                 {"intensity", light.strength * maximum}};
+                 {"color", intensity.color},
+                 {"intensity", light.strength * intensity.factor}};
     if (light.kind != LightKind::Directional && light.range > 0)
         json["range"] = light.range;
     if (light.kind == LightKind::Spot)
@@ -66,24 +69,25 @@ Json lightJson(const Light& whole) {
     return json;
 }
 
-Json lightNode(const Light& light, std::size_t index) {
-    Json node = {
-        {"name", light.name},
-        {"matrix", matrixJson(frame(light.position, light.direction, anyAcross(light.direction)))}};
-    node["extensions"]["KHR_lights_punctual"]["light"] = index;
-    return node;
+Json areaLightJson(const Light& light) {
+    const Intensity intensity(light.color);
+    return {{"name", light.name},       {"type", "rect"},
+            {"color", intensity.color}, {"intensity", light.strength * intensity.factor},
+            {"size", light.size.y},     {"rect", {{"aspect", light.size.x / light.size.y}}}};
 }
 
-Json rectangleNode(const Light& light) {
+Json profileUseJson(const Light& light, std::size_t index) {
+    const Intensity intensity(light.color);
+    return {{"light", index},
+            {"multiplier", light.strength * intensity.factor / light.profile->peak},
+            {"color", intensity.color}};
+}
+
+Json lightNode(const Light& light) {
     const LightRectangle rectangle = lightRectangle(light);
-    const glm::vec3 radiance = light.color * light.strength;
-    Json node = {{"name", light.name},
-                 {"matrix", matrixJson(frame(rectangle.centre, rectangle.normal,
-                                             glm::normalize(rectangle.halfWidth)))}};
-    node["extras"]["limn"] = {{"light", "rectangle"},
-                              {"size", {light.size.x, light.size.y}},
-                              {"radiance", vectorJson(radiance)}};
-    return node;
+    return {{"name", light.name},
+            {"matrix", matrixJson(frame(light.position, rectangle.normal,
+                                        glm::normalize(rectangle.halfWidth)))}};
 }
 
 Json cameraJson(const Camera& camera, float zNear) {

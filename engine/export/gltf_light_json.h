@@ -7,16 +7,20 @@
 
 namespace limn {
 
-/// A light of KHR_lights_punctual, without its place. Precondition: not a Rectangle, which the
-/// extension does not know.
+/// A light of KHR_lights_punctual, without its place; that of a profile is spread evenly over its
+/// cone. Precondition: not a Rectangle, which the extension does not know.
 Json lightJson(const Light& light);
 
-/// The node that carries light number `index` of the extension.
-Json lightNode(const Light& light, std::size_t index);
+/// A light of EXT_lights_area, without its place. Precondition: a Rectangle.
+Json areaLightJson(const Light& light);
 
-/// A node that only marks a rectangle light and describes it in extras.limn, because glTF has no
-/// such light: size [m], radiance [nits]. Its -Z axis points the way that light travels.
-Json rectangleNode(const Light& light);
+/// What a node says of its light by EXT_lights_ies, where `index` is that of its profile.
+/// Precondition: the light has one.
+Json profileUseJson(const Light& light, std::size_t index);
+
+/// The node of a light of any kind, without extensions. Its -Z axis points the way that light
+/// travels, and X along the width of lightRectangle().
+Json lightNode(const Light& light);
 
 /// A perspective camera that sees from `zNear` [m] on, and the node that carries it as camera
 /// number `index`.

@@ -7,12 +7,14 @@
 #include "engine/export/gltf_material_json.h"
 #include "engine/export/vector_json.h"
 #include "engine/files/image_file.h"
+#include "engine/scene/light/ies_file.h"
 
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -58,7 +60,8 @@ struct GltfScene {
     GltfBuffer buffer;
     GltfMaterials materials;
     Json nodes = Json::array(), meshes = Json::array(), cameras = Json::array(),
-         lights = Json::array();
+         lights = Json::array(), areaLights = Json::array(), profiles = Json::array();
+    std::map<std::shared_ptr<const LightProfile>, std::size_t> profileIndices;
     std::map<std::pair<Shape, Side>, Json> primitives; ///< without material and lightmap
     std::map<Shape, glm::mat4> toObject;               ///< from positions as stored
 
@@ -82,6 +85,7 @@ struct GltfScene {
     void addNode(std::uint32_t instance, Json primitiveList);
     void addLightmapped(std::uint32_t instance);
     void addInstance(std::uint32_t instance);
+    std::size_t profileIndex(const ProfileRef& profile);
     void addLights();
     void addCameras();
 };
@@ -257,16 +261,30 @@ void GltfScene::addInstance(std::uint32_t i) {
     addNode(i, Json::array({std::move(json)}));
 }
 
+std::size_t GltfScene::profileIndex(const ProfileRef& profile) {
+    const auto [known, isNew] = profileIndices.try_emplace(profile.profile, profiles.size());
+    if (isNew)
+        profiles.push_back({{"name", profile->name},
+                            {"bufferView", buffer.addFile(writeIes(*profile))},
+                            {"mimeType", "application/x-ies-lm-63"}});
+    return known->second;
+}
+
 void GltfScene::addLights() {
     for (const Light& light : in.scene.lights) {
         if (!shines(light))
             continue;
+        nodes.push_back(lightNode(light));
+        Json& extensions = nodes.back()["extensions"];
         if (light.kind == LightKind::Rectangle) {
-            nodes.push_back(rectangleNode(light));
+            extensions["EXT_lights_area"]["light"] = areaLights.size();
+            areaLights.push_back(areaLightJson(light));
             continue;
         }
-        nodes.push_back(lightNode(light, lights.size()));
+        extensions["KHR_lights_punctual"]["light"] = lights.size();
         lights.push_back(lightJson(light));
+        if (options.profiles && profileOf(light))
+            extensions["EXT_lights_ies"] = profileUseJson(light, profileIndex(light.profile));
     }
 }
 
@@ -343,9 +361,13 @@ Json documentJson(GltfScene& gltf, const std::string& bufferName, Json imageList
     if (!gltf.options.extras.isNull())
         json["asset"]["extras"]["limn"] = gltf.options.extras;
     std::set<std::string>& used = gltf.materials.extensions;
-    if (!gltf.lights.empty()) {
-        used.insert("KHR_lights_punctual");
-        json["extensions"]["KHR_lights_punctual"]["lights"] = std::move(gltf.lights);
+    for (const auto& [name, lights] : {std::pair("KHR_lights_punctual", &gltf.lights),
+                                       {"EXT_lights_area", &gltf.areaLights},
+                                       {"EXT_lights_ies", &gltf.profiles}}) {
+        if (lights->empty())
+            continue;
+        used.insert(name);
+        json["extensions"][name]["lights"] = std::move(*lights);
     }
     addPackingExtensions(gltf, json);
     if (!used.empty())

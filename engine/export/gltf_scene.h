@@ -24,6 +24,7 @@ struct GltfOptions {
     GltfPacking packing = {};
     /// extras.limn.reflection of each instance's node, unless it is 0. Empty: there is none.
     std::vector<std::uint32_t> reflections = {};
+    bool profiles = true; ///< whether EXT_lights_ies is written
 };
 
 /// The scene as glTF 2.0: `name`, a buffer, and its textures as PNG files, or all of it in `name`
@@ -32,8 +33,9 @@ struct GltfOptions {
 /// Vertices are split along the lightmap's charts. Two-sided surfaces with a lightmap become two
 /// one-sided ones. An instance whose charts lie on several pages of the lightmap becomes a node for
 /// each; materials exist once for each page, and extras.limn.lightmapPage says which, unless it is
-/// the first. Lights, cameras and emission are written by KHR_lights_punctual, glTF cameras and
-/// KHR_materials_emissive_strength. Fails for a scene without surfaces, and when cancelled.
+/// the first. Lights, cameras and emission are written by KHR_lights_punctual, EXT_lights_area,
+/// EXT_lights_ies, glTF cameras and KHR_materials_emissive_strength. Fails for a scene without
+/// surfaces, and when cancelled.
 Result<std::vector<ExportFile>> gltfFiles(const ExportScene& scene, const GltfOptions& options,
                                           const std::string& name, const Progress& progress);
 

@@ -47,9 +47,10 @@ static void readSpot(Light& light, const tinygltf::SpotLight& spot, GltfRepairs&
         repairs.add("spot cones outside 0 <= inner < outer <= 90 degrees brought into it");
 }
 
-/// False if it is of no known type.
-static bool addLight(Document& document, const tinygltf::Light& source, const std::string& nodeName,
-                     const glm::mat4& toWorld, bool visible, GltfRepairs& repairs) {
+/// Nothing if it is of no known type.
+static std::optional<Light> punctualLight(const tinygltf::Light& source,
+                                          const std::string& nodeName, const glm::mat4& toWorld,
+                                          bool visible, GltfRepairs& repairs) {
     Light light;
     if (source.type == "directional") {
         light.kind = LightKind::Directional;
@@ -58,7 +59,7 @@ static bool addLight(Document& document, const tinygltf::Light& source, const st
         readSpot(light, source.spot, repairs);
     } else if (source.type != "point") {
         repairs.add("lights of unknown type left out");
-        return false;
+        return {};
     }
     light.name = !nodeName.empty() ? nodeName : !source.name.empty() ? source.name : "Light";
     light.position = glm::vec3(toWorld[3]);
@@ -69,8 +70,7 @@ static bool addLight(Document& document, const tinygltf::Light& source, const st
     light.strength = lightNumber(source.intensity, repairs);
     light.enabled = visible;
     light.range = notNegative(source.range, repairs);
-    addObject(document, light);
-    return true;
+    return light;
 }
 
 /// The member `color` of an extension's light; white where it has none.
@@ -123,19 +123,14 @@ static void addAreaLight(Document& document, const tinygltf::Value& source,
     addObject(document, light);
 }
 
-/// Adds a light of EXT_lights_ies from what its node says of it.
-static void addProfileLight(Document& document, const tinygltf::Value& use,
-                            const ProfileRef& profile, const std::string& nodeName,
-                            const glm::mat4& toWorld, bool visible, GltfRepairs& repairs) {
-    Light light{.kind = LightKind::Point, .enabled = visible, .profile = profile};
-    light.name = !nodeName.empty() ? nodeName : !profile->name.empty() ? profile->name : "Light";
-    light.position = glm::vec3(toWorld[3]);
-    light.direction = axis(toWorld, {0, 0, -1}, {0, -1, 0});
+/// Gives a point or spot light the profile and the strength that its node's EXT_lights_ies says.
+static void setProfile(Light& light, const tinygltf::Value& use, const ProfileRef& profile,
+                       const glm::mat4& toWorld, GltfRepairs& repairs) {
+    light.profile = profile;
     light.roll = rollOf(light, toWorld);
     light.color = colorOf(use, repairs);
     const float multiplier = number(member(use, "multiplier"), 1);
     light.strength = lightNumber(double(multiplier) * double(profile->peak), repairs);
-    addObject(document, light);
 }
 
 /// The light that a node's EXT_lights_area names; null if there is none.
@@ -175,45 +170,76 @@ static void addCamera(Document& document, const tinygltf::Camera& source,
     addObject(document, camera);
 }
 
-/// Adds the light of a node's EXT_lights_ies, if its photometric file could be read.
-static void addProfileLightOf(Document& document, const tinygltf::Node& node,
-                              std::span<const ProfileRef> profiles, std::size_t index,
-                              const glm::mat4& toWorld, bool visible, GltfRepairs& repairs) {
+/// What a node's EXT_lights_ies says, and the profile that it names; none if that could not be
+/// read.
+struct ProfileUse {
+    const tinygltf::Value* use = nullptr;
+    ProfileRef profile;
+};
+
+static ProfileUse profileUseOf(const tinygltf::Node& node, std::span<const ProfileRef> profiles,
+                               std::size_t index, GltfRepairs& repairs) {
     const auto use = node.extensions.find("EXT_lights_ies");
     if (use == node.extensions.end())
-        return;
+        return {};
     const std::optional<std::size_t> light = wholeNumber(member(use->second, "light"));
-    if (!light || *light >= profiles.size())
+    if (light && *light < profiles.size())
+        return {&use->second, profiles[*light]};
+    repairs.sentences.push_back(
+        fmt::format("nodes[{}]: its light of EXT_lights_ies does not exist", index));
+    return {};
+}
+
+/// The light of a node's KHR_lights_punctual, and its index there.
+static std::pair<std::optional<Light>, std::size_t>
+punctualLightOf(const tinygltf::Model& model, std::size_t index, const glm::mat4& toWorld,
+                bool visible, GltfRepairs& repairs) {
+    const tinygltf::Node& node = model.nodes[index];
+    const auto extension = node.extensions.find("KHR_lights_punctual");
+    if (extension == node.extensions.end() || !extension->second.IsObject() ||
+        !extension->second.Has("light") || !extension->second.Get("light").IsInt())
+        return {};
+    const int light = extension->second.Get("light").GetNumberAsInt();
+    if (light < 0 || std::size_t(light) >= model.lights.size()) {
         repairs.sentences.push_back(
-            fmt::format("nodes[{}]: its light of EXT_lights_ies does not exist", index));
-    else if (profiles[*light])
-        addProfileLight(document, use->second, profiles[*light], node.name, toWorld, visible,
-                        repairs);
+            fmt::format("nodes[{}]: light {} does not exist", index, light));
+        return {};
+    }
+    return {punctualLight(model.lights[std::size_t(light)], node.name, toWorld, visible, repairs),
+            std::size_t(light)};
 }
 
 std::optional<std::size_t> addLightAndCamera(Document& document, const tinygltf::Model& model,
                                              std::span<const ProfileRef> profiles,
                                              std::size_t index, const glm::mat4& toWorld,
                                              bool visible, GltfRepairs& repairs) {
-    std::optional<std::size_t> punctual;
     const tinygltf::Node& node = model.nodes[index];
-    const auto extension = node.extensions.find("KHR_lights_punctual");
-    if (extension != node.extensions.end() && extension->second.IsObject() &&
-        extension->second.Has("light") && extension->second.Get("light").IsInt()) {
-        const int light = extension->second.Get("light").GetNumberAsInt();
-        if (light < 0 || std::size_t(light) >= model.lights.size())
-            repairs.sentences.push_back(
-                fmt::format("nodes[{}]: light {} does not exist", index, light));
-        else if (addLight(document, model.lights[std::size_t(light)], node.name, toWorld, visible,
-                          repairs))
-            punctual = std::size_t(light);
+    std::optional<std::size_t> added;
+    auto [light, punctual] = punctualLightOf(model, index, toWorld, visible, repairs);
+    const auto [use, profile] = profileUseOf(node, profiles, index, repairs);
+    // A light without its profile is there for those who cannot read one.
+    const bool isOne = light && light->kind != LightKind::Directional && profile;
+    if (light && !isOne) {
+        addObject(document, *light);
+        added = punctual;
+    }
+    if (profile) {
+        if (!isOne) {
+            light = Light{.kind = LightKind::Point, .enabled = visible};
+            light->name = !node.name.empty()       ? node.name
+                          : !profile->name.empty() ? profile->name
+                                                   : "Light";
+            light->position = glm::vec3(toWorld[3]);
+            light->direction = axis(toWorld, {0, 0, -1}, {0, -1, 0});
+        }
+        setProfile(*light, *use, profile, toWorld, repairs);
+        addObject(document, *light);
     }
     if (const tinygltf::Value* area = areaLightOf(model, node))
         addAreaLight(document, *area, node.name, toWorld, visible, repairs);
-    addProfileLightOf(document, node, profiles, index, toWorld, visible, repairs);
     if (node.camera >= 0 && std::size_t(node.camera) < model.cameras.size())
         addCamera(document, model.cameras[std::size_t(node.camera)], node.name, toWorld, repairs);
-    return punctual;
+    return added;
 }
 
 } // namespace limn

@@ -132,7 +132,7 @@ function twoSided(meshes) {
  */
 function castShadows(BABYLON, lights, meshes, extent) {
     const isSun = (light) => light instanceof BABYLON.DirectionalLight;
-    const lamps = lights.slice().sort((a, b) => Number(isSun(b)) - Number(isSun(a)) || b.intensity - a.intensity).slice(0, kShadows);
+    const lamps = lights.filter((light) => light instanceof BABYLON.ShadowLight).sort((a, b) => Number(isSun(b)) - Number(isSun(a)) || b.intensity - a.intensity).slice(0, kShadows);
     const sheets = twoSided(meshes), materials = new Set(meshes.map((m) => m.material).filter((m) => m?.backFaceCulling && !sheets.has(m)));
     return lamps.map((light) => {
         const texels = isSun(light) ? kSunTexels : kLampTexels, shadows = new BABYLON.ShadowGenerator(texels, light, true);

@@ -9,6 +9,7 @@
 #include "engine/gltf/gltf_import.h"
 #include "engine/lightmap/atlas.h"
 #include "engine/math/sh.h"
+#include "engine/scene/light/rectangle_light.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/export/exported_room.h"
@@ -44,6 +45,33 @@ protected:
         EXPECT_TRUE(read->repairs.empty()) << read->repairs.front();
         return std::move(*read);
     }
+    /// Compares the lights that are on by what they send to some points.
+    void expectSameLights(const Scene& scene) const {
+        ASSERT_EQ(scene.lights.size(), 4U);
+        std::mt19937 random(3);
+        std::uniform_real_distribution<float> component(-1, 1);
+        for (const Light& light : scene.lights) {
+            const auto same = std::ranges::find(room->scene.lights, light.name, &Light::name);
+            ASSERT_NE(same, room->scene.lights.end());
+            EXPECT_EQ(light.kind, same->kind);
+            EXPECT_FLOAT_EQ(light.range, same->range);
+            for (int i = 0; i < 200; ++i) {
+                const glm::vec3 p = same->position + glm::vec3(component(random), component(random),
+                                                               component(random));
+                const glm::vec3 up(0, 1, 0);
+                const auto arrives = [&](const Light& l) {
+                    return l.kind == LightKind::Rectangle
+                               ? l.color * l.strength *
+                                     rectangleIrradiance(lightRectangle(l), p, up)
+                               : sampleLight(l, p).irradiance;
+                };
+                const glm::vec3 expected = arrives(*same);
+                EXPECT_LT(glm::distance(arrives(light), expected),
+                          1e-3f * glm::length(expected) + 1e-5f)
+                    << light.name << " " << i;
+            }
+        }
+    }
     nlohmann::json json() const { return nlohmann::json::parse(files.front().bytes); }
 
     std::unique_ptr<ExportedRoom> room;
@@ -61,25 +89,26 @@ TEST_F(Gltf, IsImportedAgainWithTheSameLightsAndCameras) {
     EXPECT_GT(glm::dot(glm::normalize(camera.target - camera.eye),
                        glm::normalize(room->scene.cameras[0].target - camera.eye)),
               0.99999f);
-    ASSERT_EQ(scene.lights.size(), 3U); // neither the rectangle nor the one that is off
-    for (const Light& light : scene.lights) {
-        const auto same = std::ranges::find(room->scene.lights, light.name, &Light::name);
-        ASSERT_NE(same, room->scene.lights.end());
-        EXPECT_EQ(light.kind, same->kind);
-        EXPECT_LT(glm::distance(light.color * light.strength, same->color * same->strength),
-                  1e-4f * same->strength);
-        EXPECT_FLOAT_EQ(light.range, same->range);
-        if (light.kind != LightKind::Directional) {
-            EXPECT_LT(glm::distance(light.position, same->position), 1e-5f);
+    expectSameLights(scene);
+}
+
+/// Lights with profiles are read as one light, though those who know no profile find another.
+TEST_F(Gltf, IsImportedAgainWithTheSameProfiles) {
+    auto profile = std::make_shared<LightProfile>();
+    *profile = {
+        .name = "Lamp, \"half\"", .peak = 250, .lastVertical = 120, .rows = 5, .columns = 4};
+    for (int i = 0; i < 20; ++i)
+        profile->share.push_back(i == 7 ? 1.f : 0.04f * float(i));
+    for (Light& light : room->scene.lights)
+        if (light.kind == LightKind::Point || light.kind == LightKind::Spot) {
+            light.profile = {profile};
+            light.direction = glm::normalize(glm::vec3(0.4f, -1, 0.3f));
+            light.roll = 0.6f;
         }
-        if (light.kind != LightKind::Point) {
-            EXPECT_GT(glm::dot(light.direction, same->direction), 0.999999f);
-        }
-        if (light.kind == LightKind::Spot) {
-            EXPECT_FLOAT_EQ(light.innerAngle, same->innerAngle);
-            EXPECT_FLOAT_EQ(light.outerAngle, same->outerAngle);
-        }
-    }
+    const ImportedScene again = reimported();
+    expectSameLights(flatten(again.document, again.assets));
+    EXPECT_EQ(json()["extensions"]["EXT_lights_ies"]["lights"].size(), 1U);
+    EXPECT_EQ(json()["extensions"]["KHR_lights_punctual"]["lights"].size(), 3U);
 }
 
 TEST_F(Gltf, IsOpenedAgainWithTheSameSidesOfSurfaces) {

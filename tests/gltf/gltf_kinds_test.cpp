@@ -328,6 +328,36 @@ TEST(GltfKinds, PhotometricFilesAreProfilesOfPoints) {
         })) << defect;
 }
 
+/// KHR_lights_punctual on the node of a profile is for readers without profiles; a sun is another
+/// light.
+TEST(GltfKinds, APointOnTheNodeOfAProfileIsTheSameLight) {
+    GltfBuilder b = triangleScene();
+    b.json["extensions"]["EXT_lights_ies"]["lights"] = {
+        {{"uri",
+          "data:application/x-ies-lm-63,TILT=NONE%0A1 -1 1 2 1 1 2 0 0 0%0A1 1 9%0A0 90%0A0%0A"
+          "80 5"}}};
+    b.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"intensity", 3}, {"range", 4}, {"spot", {{"outerConeAngle", 0.5}}}},
+        {{"type", "directional"}}};
+    for (const int light : {0, 1})
+        b.json["nodes"].push_back(
+            {{"extensions",
+              {{"EXT_lights_ies", {{"light", 0}}}, {"KHR_lights_punctual", {{"light", light}}}}}});
+    b.json["scenes"][0]["nodes"] = {0, 1, 2};
+    const Result<ImportedScene> scene = b.import();
+    ASSERT_TRUE(scene) << scene.error().message;
+    const Scene flat = flatten(scene->document, scene->assets);
+    ASSERT_EQ(flat.lights.size(), 3U);
+    EXPECT_EQ(flat.lights[0].kind, LightKind::Spot);
+    EXPECT_EQ(flat.lights[0].strength, 80);
+    EXPECT_EQ(flat.lights[0].range, 4);
+    EXPECT_TRUE(flat.lights[0].profile);
+    EXPECT_EQ(flat.lights[1].kind, LightKind::Directional);
+    EXPECT_FALSE(flat.lights[1].profile);
+    EXPECT_EQ(flat.lights[2].kind, LightKind::Point);
+    EXPECT_TRUE(flat.lights[2].profile);
+}
+
 /// A scale of 0 along one axis flattens, whatever stands below the node.
 TEST(GltfKinds, AScaleOfZeroAlongOneAxisFlattens) {
     GltfBuilder b;

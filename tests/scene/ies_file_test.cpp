@@ -183,6 +183,33 @@ TEST(IesFile, ALampTurnsWithItsDirectionAndRoll) {
     EXPECT_EQ(towards({0, 0, 1}), 0);
 }
 
+TEST(IesFile, AProfileComesBackFromItsFile) {
+    for (const std::uint32_t columns : {1U, 8U}) {
+        LightProfile profile{.name = "Lamp", .peak = 320.5f, .lastVertical = 90, .rows = 11};
+        profile.columns = columns;
+        for (std::uint32_t i = 0; i < columns * profile.rows; ++i)
+            profile.share.push_back(i == 5 ? 1.f : float(i % 9) / 9);
+        const Result<PhotometricFile> again = parseIes(writeIes(profile));
+        ASSERT_TRUE(again) << again.error().message;
+        EXPECT_FALSE(again->resampled);
+        EXPECT_EQ(again->profile.name, "Lamp");
+        EXPECT_FLOAT_EQ(again->profile.peak, profile.peak);
+        EXPECT_EQ(again->profile.lastVertical, 90);
+        ASSERT_EQ(again->profile.rows, profile.rows);
+        ASSERT_EQ(again->profile.columns, columns);
+        for (std::size_t i = 0; i < profile.share.size(); ++i)
+            EXPECT_NEAR(again->profile.share[i], profile.share[i], 1e-6f);
+    }
+    // Lines end after at most 256 characters.
+    LightProfile wide{.name = std::string(300, '\n'), .rows = 721};
+    wide.columns = 1;
+    wide.share.assign(721, 1);
+    const std::string text = writeIes(wide);
+    EXPECT_TRUE(parseIes(text));
+    for (std::size_t begin = 0; begin < text.size(); begin = text.find('\n', begin) + 1)
+        EXPECT_LE(text.find('\n', begin) - begin, 254U);
+}
+
 TEST(IesFile, AnglesThatLieTooCloseAreInterpolated) {
     std::vector<double> verticals = {0, 0.013, 0.05, 1, 90};
     const auto falling = [](double v, double) { return 100 - v; };

@@ -262,6 +262,30 @@ Result<PhotometricFile> parseIes(std::string_view text) {
     return file;
 }
 
+std::string writeIes(const LightProfile& profile) {
+    std::string name;
+    noteKeyword("[LUMINAIRE] " + profile.name, name, name);
+    std::string text =
+        fmt::format("IESNA:LM-63-2002\n[MANUFAC] Limn\n[LUMINAIRE] {}\nTILT=NONE\n", name);
+    const std::uint32_t columns = profile.columns == 1 ? 1 : profile.columns + 1; // 360 is 0 again
+    text += fmt::format("1 -1 1 {} {} 1 2 0 0 0\n1 1 0", profile.rows, columns);
+    const auto writeLines = [&](std::uint32_t count, const auto& value) {
+        constexpr std::uint32_t kPerLine = 10;
+        for (std::uint32_t i = 0; i < count; ++i)
+            text += fmt::format("{}{:.7g}", i % kPerLine == 0 ? '\n' : ' ', value(i));
+    };
+    const double from = profile.firstVertical, to = profile.lastVertical;
+    writeLines(profile.rows,
+               [&](std::uint32_t r) { return from + (to - from) * r / (profile.rows - 1); });
+    writeLines(columns, [&](std::uint32_t c) { return 360. * c / profile.columns; });
+    for (std::uint32_t c = 0; c < columns; ++c)
+        writeLines(profile.rows, [&](std::uint32_t r) {
+            return double(profile.peak) *
+                   profile.share[std::size_t(c % profile.columns) * profile.rows + r];
+        });
+    return text + '\n';
+}
+
 Result<PhotometricFile> readIes(const std::string& path) {
     const Result<std::string> text = readFile(path, kMaxFile);
     if (!text)

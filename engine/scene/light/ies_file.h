@@ -4,6 +4,7 @@
 #include "engine/core/result.h"
 #include "engine/scene/light/light_profile.h"
 
+#include <string>
 #include <string_view>
 
 namespace limn {
@@ -23,6 +24,10 @@ struct PhotometricFile {
 /// ANSI/IES LM-63-19. Approved Method: IES Standard File Format for the Electronic Transfer of
 /// Photometric Data. 2019
 Result<PhotometricFile> parseIes(std::string_view text);
+
+/// A file of the standard LM-63-2002 with the profile's intensities [cd], as absolute photometry.
+/// parseIes() gives the profile back where its angles are thousandths of degrees.
+std::string writeIes(const LightProfile& profile);
 
 /// Reads a file of at most 16 MB. Failures name it.
 Result<PhotometricFile> readIes(const std::string& path);
