@@ -8,13 +8,8 @@
 
 namespace limn::gpu {
 
-void writeTimestamp(VkCommandBuffer cmd, VkQueryPool pool, std::uint32_t query) {
-    vkCmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool, query);
-    memoryBarrier(cmd, kAllWrites, kAllReads);
-}
-
 Timestamps::Timestamps(Device& device, std::uint32_t maxSteps)
-    : m_device(&device), m_maxQueries(maxSteps + 1) {
+    : m_device(&device), m_maxQueries(maxSteps + 1), m_ticks(maxSteps + 1) {
     const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                      .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                      .queryCount = m_maxQueries};
@@ -31,21 +26,21 @@ void Timestamps::begin(VkCommandBuffer cmd) {
 
 void Timestamps::mark(VkCommandBuffer cmd) {
     assert(m_count < m_maxQueries);
-    writeTimestamp(cmd, m_pool.handle, m_count++);
+    vkCmdWriteTimestamp2(cmd, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, m_pool.handle, m_count++);
+    // A software rasteriser writes the time now and not with the work that follows.
+    memoryBarrier(cmd, kAllWrites, kAllReads);
 }
 
-std::vector<double> Timestamps::steps() const {
-    std::vector<std::uint64_t> ticks(m_count);
+std::span<const double> Timestamps::steps() {
     VK_CHECK(vkGetQueryPoolResults(m_device->device, m_pool.handle, 0, m_count,
-                                   ticks.size() * sizeof(std::uint64_t), ticks.data(),
+                                   m_count * sizeof(std::uint64_t), m_ticks.data(),
                                    sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT));
-    std::vector<double> ms;
-    for (std::size_t i = 1; i < ticks.size(); ++i)
-        ms.push_back(ticks[i] > ticks[i - 1]
-                         ? double(ticks[i] - ticks[i - 1]) *
-                               double(m_device->properties.limits.timestampPeriod) * 1e-6
-                         : 0);
-    return ms;
+    const double msPerTick = double(m_device->properties.limits.timestampPeriod) * 1e-6;
+    m_ms.clear();
+    for (std::size_t i = 1; i < m_count; ++i)
+        m_ms.push_back(m_ticks[i] > m_ticks[i - 1] ? double(m_ticks[i] - m_ticks[i - 1]) * msPerTick
+                                                   : 0);
+    return m_ms;
 }
 
 } // namespace limn::gpu

@@ -4,14 +4,10 @@
 #include "engine/gpu/handle.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace limn::gpu {
-
-/// Writes the time at which all previously recorded work is done. Must not be called inside a
-/// rendering. The barrier after it makes a software rasteriser write the time now and not with the
-/// work that follows.
-void writeTimestamp(VkCommandBuffer cmd, VkQueryPool pool, std::uint32_t query);
 
 /// Measures the GPU time of each step of one command buffer.
 class Timestamps {
@@ -19,15 +15,19 @@ public:
     Timestamps(Device& device, std::uint32_t maxSteps); ///< `maxSteps`: maximum number of steps
 
     void begin(VkCommandBuffer cmd);
-    /// Ends a step at the time when all previously recorded work is done.
+    /// Ends a step at the time when all previously recorded work is done. Must not be called inside
+    /// a rendering.
     void mark(VkCommandBuffer cmd);
-    /// Duration of each step since begin() [ms]. The command buffer must have completed.
-    std::vector<double> steps() const;
+    /// Duration of each step since begin() [ms], until the next call. The command buffer must have
+    /// completed.
+    std::span<const double> steps();
 
 private:
     Device* m_device;
     QueryPool m_pool;
     std::uint32_t m_maxQueries, m_count = 0;
+    std::vector<std::uint64_t> m_ticks;
+    std::vector<double> m_ms;
 };
 
 } // namespace limn::gpu

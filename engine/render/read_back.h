@@ -13,6 +13,9 @@ namespace limn::render {
 /// RGB of an RGBA32F image.
 ImageF readLinearImage(gpu::Device& device, const gpu::Image& image, std::uint32_t width,
                        std::uint32_t height);
+/// RGB of 64 x 36 points of an RGBA32F image. `sampled` is made when it is empty.
+ImageF readSampledImage(gpu::Device& device, const gpu::Image& image, std::uint32_t width,
+                        std::uint32_t height, gpu::Image& sampled);
 /// An RGBA8 image.
 Image readColorImage(gpu::Device& device, const gpu::Image& image, std::uint32_t width,
                      std::uint32_t height);

@@ -11,6 +11,7 @@
 #include "engine/render/passes/camera_view.h"
 #include "engine/render/passes/direct_pass.h"
 #include "engine/render/passes/geometry_passes.h"
+#include "engine/render/passes/glass_pass.h"
 #include "engine/render/passes/indirect_pass.h"
 #include "engine/render/passes/mean_pass.h"
 #include "engine/render/passes/near_pass.h"
@@ -29,6 +30,9 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+#include <numeric>
+#include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -56,21 +60,14 @@ Extent steppedUp(Extent size) {
 // How much a picture fades beneath an overlay.
 constexpr float kOverlayFade = 0.8f;
 
-enum Timestamp : std::uint32_t {
-    kBegin,
-    kShadowsDone,
-    kGeometryDone,
-    kIndirectDone,
-    kShadeDone,
-    kEnd,
-    kTimestamps
-};
+/// Shadow maps, geometry, bounced light, direct light, tone mapping.
+constexpr std::uint32_t kSteps = 5;
 
 /// Resources of one frame in flight.
 struct FrameSlot {
     gpu::Buffer frame; ///< mapped
     LightTable lights;
-    gpu::QueryPool queries;
+    std::optional<gpu::Timestamps> times; ///< of kSteps
     std::uint64_t submission = 0;
     std::uint32_t shadowMapsDrawn = 0;
     double uploadMs = 0;
@@ -79,7 +76,8 @@ struct FrameSlot {
 
 struct Targets {
     gpu::Image linear, color;
-    gpu::Image mean;     ///< of several linear images; made when first needed
+    gpu::Image behind;   ///< linear, without glass; made when first needed
+    gpu::Image mean;     ///< of several linear images; the same
     gpu::Image metering; ///< made when first needed
 };
 
@@ -98,6 +96,11 @@ struct Viewport::Impl {
     void recordIndirect(VkCommandBuffer cmd, const ViewportOptions& options,
                         std::uint32_t slotIndex);
     void recordDirect(VkCommandBuffer cmd, const ViewportOptions& options, std::uint32_t slotIndex);
+    void recordBehindGlass(VkCommandBuffer cmd, GeometryView view, const ViewportOptions& options,
+                           std::uint32_t slotIndex);
+    void recordSurfaces(VkCommandBuffer cmd, const GeometryView& view,
+                        const ViewportOptions& options, std::uint32_t slotIndex);
+    void ensureLike(gpu::Image& image, const char* name);
     void recordTonemap(VkCommandBuffer cmd, const ViewportOptions& options, std::uint32_t slot);
     void recordOverlay(VkCommandBuffer cmd, const GeometryView& view,
                        const ViewportOptions& options, std::uint32_t slot);
@@ -116,6 +119,7 @@ struct Viewport::Impl {
     NearPass nearPass;
     SkyPass sky;
     DirectPass direct;
+    GlassPass glass;
     MeanPass mean;
     TonemapPass tonemap;
     OverlayPass overlay;
@@ -149,21 +153,16 @@ Viewport::Impl::Impl(gpu::Device& d)
     : device(d), materials(d), sets(d), geometry(d, sets.layout().handle, materials.layout()),
       surfaces(d), surfaceMaps(d, sets.layout(), kFrameTypes),
       indirectPass(d, sets.layout().handle), nearPass(d, sets.layout().handle),
-      sky(d, sets.layout().handle), direct(d, sets.layout().handle), mean(d), tonemap(d),
-      overlay(d), shadows(d), noIndirect(uploadIndirectLight(d, {})), indirect(noIndirect),
-      lightPipelines(d, sets.layout().handle), relightTimes(d, 1) {
+      sky(d, sets.layout().handle), direct(d, sets.layout().handle), glass(d, sets.layout().handle),
+      mean(d), tonemap(d), overlay(d), shadows(d), noIndirect(uploadIndirectLight(d, {})),
+      indirect(noIndirect), lightPipelines(d, sets.layout().handle), relightTimes(d, 1) {
     for (FrameSlot& slot : slots) {
         slot.frame = gpu::Buffer(d, {.size = sizeof(GpuFrame),
                                      .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                                      .memory = gpu::MemoryKind::Upload,
                                      .name = "frame"});
         writeLightTable(d, slot.lights, {}, {}, {});
-        const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                         .queryCount = kTimestamps};
-        VkQueryPool pool = VK_NULL_HANDLE;
-        VK_CHECK(vkCreateQueryPool(d.device, &info, nullptr, &pool));
-        slot.queries = gpu::QueryPool(d, pool);
+        slot.times.emplace(d, kSteps);
     }
 }
 
@@ -224,13 +223,6 @@ void Viewport::Impl::recordShadows(VkCommandBuffer cmd, FrameSlot& slot, std::ui
         shadows.prepare(cmd);
 }
 
-// Discards the image's contents once the accesses `read` of the previous frame have completed.
-static void discard(VkCommandBuffer cmd, const gpu::Image& image, gpu::Access read) {
-    read.access = VK_ACCESS_2_NONE;
-    read.layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    gpu::imageBarrier(cmd, image.handle, VK_IMAGE_ASPECT_COLOR_BIT, read, gpu::kColorWrite);
-}
-
 // Begins a rendering that draws over the linear image and keeps its contents.
 void Viewport::Impl::beginOnLinear(VkCommandBuffer cmd, const ViewportOptions& options) {
     gpu::memoryBarrier(cmd, gpu::kColorWrite, gpu::kColorWrite);
@@ -242,7 +234,7 @@ void Viewport::Impl::beginOnLinear(VkCommandBuffer cmd, const ViewportOptions& o
 // Records everything except direct light.
 void Viewport::Impl::recordIndirect(VkCommandBuffer cmd, const ViewportOptions& options,
                                     std::uint32_t slotIndex) {
-    discard(cmd, targets.linear, gpu::kFragmentRead);
+    discardContents(cmd, targets.linear, gpu::kFragmentRead);
     const std::array color = {attachment(targets.linear.view,
                                          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                          VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
@@ -274,13 +266,39 @@ void Viewport::Impl::recordDirect(VkCommandBuffer cmd, const ViewportOptions& op
         direct.record(cmd, sets.set(slotIndex), options.view);
         vkCmdEndRendering(cmd);
     }
-    gpu::imageBarrier(cmd, targets.linear.handle, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kColorWrite,
-                      gpu::kFragmentRead);
+}
+
+void Viewport::Impl::recordSurfaces(VkCommandBuffer cmd, const GeometryView& view,
+                                    const ViewportOptions& options, std::uint32_t slotIndex) {
+    stats.geometryDrawn +=
+        surfaces.record(cmd, geometry, scene, materials, view, {options.width, options.height},
+                        slotIndex, sets.set(slotIndex));
+}
+
+// Makes an image of the linear one's size.
+void Viewport::Impl::ensureLike(gpu::Image& image, const char* name) {
+    const gpu::Image& linear = targets.linear;
+    if (image.width != linear.width || image.height != linear.height)
+        image = gpu::Image(
+            device, gpu::ImageDesc::renderTarget(linear.width, linear.height, kLinearFormat, name));
+}
+
+// Records the picture of what transmits no light.
+void Viewport::Impl::recordBehindGlass(VkCommandBuffer cmd, GeometryView view,
+                                       const ViewportOptions& options, std::uint32_t slotIndex) {
+    ensureLike(targets.behind, "behind glass");
+    view.throughGlass = true;
+    recordSurfaces(cmd, view, options, slotIndex);
+    recordIndirect(cmd, options, slotIndex);
+    recordDirect(cmd, options, slotIndex);
+    makeReadable(cmd, targets.linear);
+    std::swap(targets.linear, targets.behind);
 }
 
 void Viewport::Impl::recordTonemap(VkCommandBuffer cmd, const ViewportOptions& options,
                                    std::uint32_t slot) {
-    discard(cmd, targets.color, gpu::kAllReads); // by whoever showed it, sampling or blitting
+    discardContents(cmd, targets.color,
+                    gpu::kAllReads); // by whoever showed it, sampling or blitting
     const std::array color = {attachment(targets.color.view,
                                          VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                                          VK_ATTACHMENT_LOAD_OP_DONT_CARE)};
@@ -328,21 +346,13 @@ void Viewport::Impl::recordOverlay(VkCommandBuffer cmd, const GeometryView& view
 void Viewport::Impl::readTimes(FrameSlot& slot) {
     if (slot.timed || slot.submission == 0 || device.completed() < slot.submission)
         return;
-    std::array<std::uint64_t, kTimestamps> ticks{};
-    if (vkGetQueryPoolResults(device.device, slot.queries.handle, 0, kTimestamps, sizeof ticks,
-                              ticks.data(), sizeof(std::uint64_t),
-                              VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
-        return;
-    const double msPerTick = double(device.properties.limits.timestampPeriod) * 1e-6;
-    const auto between = [&](Timestamp a, Timestamp b) {
-        return ticks[b] > ticks[a] ? double(ticks[b] - ticks[a]) * msPerTick : 0.0;
-    };
-    stats.shadowMs = between(kBegin, kShadowsDone);
-    stats.geometryMs = between(kShadowsDone, kGeometryDone);
-    stats.indirectMs = between(kGeometryDone, kIndirectDone);
-    stats.directMs = between(kIndirectDone, kShadeDone);
-    stats.tonemapMs = between(kShadeDone, kEnd);
-    stats.totalMs = between(kBegin, kEnd);
+    const std::span<const double> ms = slot.times->steps();
+    stats.shadowMs = ms[0];
+    stats.geometryMs = ms[1];
+    stats.indirectMs = ms[2];
+    stats.directMs = ms[3];
+    stats.tonemapMs = ms[4];
+    stats.totalMs = std::accumulate(ms.begin(), ms.end(), 0.0);
     stats.uploadMs = slot.uploadMs;
     slot.timed = true;
 }
@@ -424,31 +434,38 @@ void Viewport::Impl::draw(const ViewportOptions& options) {
     writeFrame(slot, options, shadowSlots, point);
     sets.write(slotIndex, slot.frame, slot.lights, shadows, surfaces, scene.lookupSnaps);
     indirectPass.bind(*indirect.field, slotIndex);
+    nearPass.bind(*indirect.field, slotIndex);
+    sky.bind(slotIndex);
     materials.writeFactors(slotIndex);
     slot.uploadMs = pendingUploadMs + clock.lap();
     pendingUploadMs = 0;
 
     const VkCommandBuffer cmd = device.begin("viewport");
-    const auto mark = [&](Timestamp t) { gpu::writeTimestamp(cmd, slot.queries.handle, t); };
-    vkCmdResetQueryPool(cmd, slot.queries.handle, 0, kTimestamps);
-    mark(kBegin);
+    slot.times->begin(cmd);
     recordShadows(cmd, slot, slotIndex, lit);
-    mark(kShadowsDone);
-    stats.geometryDrawn +=
-        surfaces.record(cmd, geometry, scene, materials, view, {options.width, options.height},
-                        slotIndex, sets.set(slotIndex));
-    mark(kGeometryDone);
+    slot.times->mark(cmd);
+    const bool glassSeen = options.view == View::Lit && showsGlass(scene, materials, view);
+    if (glassSeen)
+        recordBehindGlass(cmd, view, options, slotIndex);
+    recordSurfaces(cmd, view, options, slotIndex);
+    slot.times->mark(cmd);
     recordIndirect(cmd, options, slotIndex);
-    mark(kIndirectDone);
+    slot.times->mark(cmd);
     recordDirect(cmd, options, slotIndex);
-    mark(kShadeDone);
+    if (glassSeen) {
+        beginOnLinear(cmd, options);
+        glass.record(cmd, sets.set(slotIndex), targets.behind, slotIndex);
+        vkCmdEndRendering(cmd);
+    }
+    makeReadable(cmd, targets.linear);
+    slot.times->mark(cmd);
     if (samples > 0)
         mean.record(cmd, targets.linear, targets.mean, samples, {options.width, options.height},
                     slotIndex);
     ++samples;
     recordTonemap(cmd, options, slotIndex);
     recordOverlay(cmd, view, options, slotIndex);
-    mark(kEnd);
+    slot.times->mark(cmd);
     slot.submission = device.submit(cmd);
     slot.timed = false;
     stats.shadowMapsDrawn = slot.shadowMapsDrawn;
@@ -465,12 +482,8 @@ std::uint32_t Viewport::refine() {
     Impl& v = *m_impl;
     assert(v.samples > 0);
     if (v.samples == 1) { // what render() drew becomes the mean, as a whole
-        gpu::Image& mean = v.targets.mean;
-        const gpu::Image& linear = v.targets.linear;
-        if (mean.width != linear.width || mean.height != linear.height)
-            mean = gpu::Image(v.device, gpu::ImageDesc::renderTarget(linear.width, linear.height,
-                                                                     kLinearFormat, "mean colour"));
-        std::swap(v.targets.linear, mean);
+        v.ensureLike(v.targets.mean, "mean colour");
+        std::swap(v.targets.linear, v.targets.mean);
     }
     v.draw(v.last);
     return v.samples;
@@ -562,16 +575,7 @@ ImageF Viewport::readLinear() {
 ImageF Viewport::readMetering() {
     Impl& v = *m_impl;
     assert(v.frames > 0);
-    constexpr std::uint32_t kWidth = 64, kHeight = 36;
-    constexpr VkImageLayout kLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    if (!v.targets.metering) {
-        gpu::ImageDesc desc =
-            gpu::ImageDesc::renderTarget(kWidth, kHeight, kLinearFormat, "metering");
-        desc.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-        v.targets.metering = gpu::Image(v.device, desc);
-    }
-    gpu::sampleImage(v.device, v.shown(), v.last.width, v.last.height, v.targets.metering, kLayout);
-    return readLinearImage(v.device, v.targets.metering, kWidth, kHeight);
+    return readSampledImage(v.device, v.shown(), v.last.width, v.last.height, v.targets.metering);
 }
 
 Image Viewport::readTonemapped() {

@@ -8,6 +8,7 @@
 #include "shaders/shared/sampler.glsl"
 
 const float kPi = 3.14159265358979;
+#include "shaders/shared/fresnel.glsl"
 #include "shaders/shared/scatter.glsl"
 
 layout(local_size_x = PHOTON_MAP_LANES, local_size_y = PHOTON_MAP_LANES) in;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How a surface scatters a photon, as scatter() of engine/techniques/photon_lattices/photon_surface.cpp, and what that calls:
-// sampleSpecular(), sampleFacet(), splitAtBoundary(). Needs sampler.glsl, gpu_photons.h and kPi.
+// sampleSpecular(), sampleFacet(), splitAtBoundary(). Needs sampler.glsl, fresnel.glsl, gpu_photons.h and kPi.
 // Heitz. Sampling the GGX Distribution of Visible Normals. 2018
 // Walter et al. Microfacet Models for Refraction through Rough Surfaces. 2007
 
@@ -86,17 +86,6 @@ Way metalWay(PhotonSurface s, vec3 n, vec3 direction, vec2 u) {
         way.share = s.metallic * min(schlickFresnel(s.metal, VoH) * shareOfFacet(alpha, v.z, l.z), 1.0);
     }
     return way;
-}
-
-float fresnelDielectric(float cosine, float eta) {
-    const float incident = clamp(cosine, 0.0, 1.0);
-    const float sine2 = max(1.0 - incident * incident, 0.0) / eta / eta;
-    if (!(sine2 < 1.0))
-        return 1.0;
-    const float transmitted = sqrt(1.0 - sine2);
-    const float parallel = (eta * incident - transmitted) / (eta * incident + transmitted);
-    const float perpendicular = (incident - eta * transmitted) / (incident + eta * transmitted);
-    return (parallel * parallel + perpendicular * perpendicular) / 2.0;
 }
 
 vec3 refractedDirection(vec3 n, vec3 toLight, float eta) {

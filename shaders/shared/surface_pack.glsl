@@ -12,6 +12,7 @@ struct PackedSurface {
     vec2 lightmapUv; // without a lightmap: the instance's number and 0
     vec3 albedo; // diffuse reflectance
     vec3 F0;     // reflectance at normal incidence
+    float transmission, dielectricF0; // of what is not metal: share that passes, reflectance at normal incidence
     float nearReach; // m; within it, light of near surfaces replaces the field's. 0: nowhere
 };
 
@@ -66,9 +67,11 @@ PackedSurface unpackSurface(uvec4 p, vec4 receiver) {
     const vec2 steps = floor(0.5 * receiver.zw);
     s.metallic = receiver.z - 2.0 * steps.x;
     s.roughness = receiver.w - 2.0 * steps.y;
-    s.albedo = min(s.baseColor * (1.0 - s.metallic) * (1.0 - steps.x / 255.0), 0.99);
+    s.transmission = steps.x / 255.0;
+    s.albedo = min(s.baseColor * (1.0 - s.metallic) * (1.0 - s.transmission), 0.99);
     const float F0 = (steps.y - 1.0) / 1022.0;
-    s.F0 = mix(vec3(steps.y > 0.0 ? F0 * F0 : 0.04), s.baseColor, s.metallic);
+    s.dielectricF0 = steps.y > 0.0 ? F0 * F0 : 0.04;
+    s.F0 = mix(vec3(s.dielectricF0), s.baseColor, s.metallic);
     s.detailNormal = octDecode(unpackSnorm2x16(p.z));
     s.geometricNormal = octDecode(unpackSnorm2x16(p.w));
     return s;

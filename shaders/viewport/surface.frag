@@ -32,7 +32,8 @@ void main() {
                        packMetallic(s.metallic, material.transmission), packRoughness(s.roughness, material.dielectricF0));
     if (isBlackBack()) { // opposite normals, so that no light reaches both sides
         outEmitted = vec4(0);
-        outSurface = packSurface(vec3(0), -s.geometricNormal, s.geometricNormal, 0.0);
+        outSurface = packSurface(s.baseColor * material.transmission, -s.geometricNormal, s.geometricNormal, 0.0);
+        outReceiver.z = packMetallic(s.metallic, material.transmission > 0.0 ? 1.0 : 0.0);
         return;
     }
     // Bands from the lightmap are positive, from the grid negative. A half more: a technique's own pass adds

@@ -156,18 +156,25 @@ void GeometryPasses::drawDepth(VkCommandBuffer cmd, const RenderScene& scene,
     }
 }
 
+bool showsGlass(const RenderScene& scene, const MaterialSet& materials, const GeometryView& view) {
+    return std::ranges::any_of(scene.instances, [&](const GpuInstance& instance) {
+        return materials.transmits[instance.material] && mayBeVisible(instance.bounds, view.toClip);
+    });
+}
+
 // Sorts instances nearest first, so that later instances fail the depth test before they are
 // shaded.
-static void orderByDistance(const RenderScene& scene, const GeometryView& view,
-                            std::vector<std::pair<float, std::uint32_t>>& order) {
-    order.clear();
+void GeometryPasses::orderByDistance(const RenderScene& scene, const MaterialSet& materials,
+                                     const GeometryView& view) {
+    m_order.clear();
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const GpuInstance& instance = scene.instances[i];
         if (scene.meshes[instance.mesh].indexCount > 0 &&
+            !(view.throughGlass && materials.transmits[instance.material]) &&
             mayBeVisible(instance.bounds, view.toClip))
-            order.emplace_back(distanceTo(instance.bounds, view.eye), i);
+            m_order.emplace_back(distanceTo(instance.bounds, view.eye), i);
     }
-    std::sort(order.begin(), order.end());
+    std::sort(m_order.begin(), m_order.end());
 }
 
 // Depths of a triangle are rounded to 2^-23 of the nearest of them: for a triangle that spans 1 cm
@@ -179,7 +186,7 @@ void GeometryPasses::drawDepthAhead(VkCommandBuffer cmd, const RenderScene& scen
     glm::mat4 toClip = view.toClip;
     for (int column = 0; column < 4; ++column)
         toClip[column][2] *= kBehind;
-    orderByDistance(scene, view, m_order);
+    orderByDistance(scene, materials, view);
     gpu::Pipeline& pipeline = m_depth[0];
     if (!pipeline)
         pipeline = createDepth(0);
@@ -231,7 +238,7 @@ static std::uint32_t bandsRead(std::uint32_t needed, std::uint32_t features,
 SurfacesDrawn GeometryPasses::drawSurfaces(VkCommandBuffer cmd, const RenderScene& scene,
                                            const MaterialSet& materials, const GeometryView& view,
                                            std::uint32_t slot) {
-    orderByDistance(scene, view, m_order);
+    orderByDistance(scene, materials, view);
     SurfacesDrawn drawn;
     VkPipeline bound = VK_NULL_HANDLE;
     for (const auto& [distance, index] : m_order) {

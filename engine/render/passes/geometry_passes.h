@@ -32,8 +32,12 @@ struct GeometryView {
     bool grid = false;           ///< instances without lightmap read the grid
     std::uint32_t bands = 3;     ///< bands of the indirect light
     bool reflectedApart = false; ///< what glossy receivers reflect is drawn by a LightPass
+    bool throughGlass = false;   ///< leaves out surfaces that transmit light
     bool operator==(const GeometryView&) const = default;
 };
+
+/// Whether `view` may show a surface that transmits light.
+bool showsGlass(const RenderScene& scene, const MaterialSet& materials, const GeometryView& view);
 
 /// How the surfaces that were drawn read bounced light.
 struct SurfacesDrawn {
@@ -84,6 +88,8 @@ private:
         auto operator<=>(const Variant&) const = default;
     };
 
+    void orderByDistance(const RenderScene& scene, const MaterialSet& materials,
+                         const GeometryView& view);
     gpu::Pipeline createSurface(const Variant& variant);
     gpu::Pipeline createDepth(std::uint32_t features);
 

@@ -55,8 +55,7 @@ void NearPass::record(VkCommandBuffer cmd, VkDescriptorSet frameSet, const Viewp
     assert(active(options));
     const VkPipeline variant = pipeline(
         {options.view, std::min(field.bands, std::uint32_t(kIrradianceBands)), field.chroma});
-    const std::array sets = {frameSet, m_surfaces.set(),
-                             m_lightmap.with(field.lightmap.view, slot)};
+    const std::array sets = {frameSet, m_surfaces.set(), m_lightmap.set(slot)};
     vkCmdBindDescriptorSets(cmd, VK_PIPELINE_BIND_POINT_GRAPHICS, m_layout.handle, 0, sets.size(),
                             sets.data(), 0, nullptr);
     const GpuNear push{.rays = options.nearRays, .first = sample * options.nearRays};

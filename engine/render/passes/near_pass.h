@@ -28,9 +28,14 @@ public:
     /// light, and there are surfaces that fit the device.
     bool active(const ViewportOptions& options) const;
 
+    /// Binds the field to a slot of MaterialSet. No frame in flight may use it.
+    void bind(const GpuField& field, std::uint32_t slot) {
+        m_lightmap.with(field.lightmap.view, slot);
+    }
+
     /// Records the pass over the whole bound linear image, for sample `sample` of each pixel.
-    /// `frameSet` holds the surface images and the lights with their shadow maps. No frame in
-    /// flight may use the slot. Precondition: active().
+    /// `frameSet` holds the surface images and the lights with their shadow maps, and `slot` was
+    /// bound to `field`. Precondition: active().
     void record(VkCommandBuffer cmd, VkDescriptorSet frameSet, const ViewportOptions& options,
                 const GpuField& field, std::uint32_t sample, std::uint32_t slot);
 

@@ -30,4 +30,15 @@ void beginRendering(VkCommandBuffer cmd, Extent size,
     vkCmdSetScissor(cmd, 0, 1, &area);
 }
 
+void discardContents(VkCommandBuffer cmd, const gpu::Image& image, gpu::Access read) {
+    read.access = VK_ACCESS_2_NONE;
+    read.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    gpu::imageBarrier(cmd, image.handle, VK_IMAGE_ASPECT_COLOR_BIT, read, gpu::kColorWrite);
+}
+
+void makeReadable(VkCommandBuffer cmd, const gpu::Image& image) {
+    gpu::imageBarrier(cmd, image.handle, VK_IMAGE_ASPECT_COLOR_BIT, gpu::kColorWrite,
+                      gpu::kFragmentRead);
+}
+
 } // namespace limn::render

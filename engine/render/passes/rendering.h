@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/gpu/barrier.h"
+#include "engine/gpu/image.h"
+
 #include <cstdint>
 #include <span>
 
@@ -22,5 +25,12 @@ VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout,
 void beginRendering(VkCommandBuffer cmd, Extent size,
                     std::span<const VkRenderingAttachmentInfo> colors,
                     const VkRenderingAttachmentInfo* depth, bool up);
+
+/// Discards a colour image's contents, to draw to it once the accesses `read` of the previous frame
+/// have completed.
+void discardContents(VkCommandBuffer cmd, const gpu::Image& image, gpu::Access read);
+
+/// Makes what was drawn to a colour image readable in fragment shaders.
+void makeReadable(VkCommandBuffer cmd, const gpu::Image& image);
 
 } // namespace limn::render

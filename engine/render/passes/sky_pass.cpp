@@ -61,7 +61,7 @@ bool SkyPass::active() const {
 }
 
 void SkyPass::record(VkCommandBuffer cmd, VkDescriptorSet frameSet, std::uint32_t slot) {
-    const std::array sets = {frameSet, m_texture.with(m_panorama.view, slot)};
+    const std::array sets = {frameSet, m_texture.set(slot)};
     const GpuSky push{.zenith = m_sky.radiance,
                       .strength = m_sky.strength,
                       .horizon = m_sky.horizon,

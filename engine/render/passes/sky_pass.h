@@ -21,8 +21,11 @@ public:
     bool active() const;
     glm::vec3 colour() const { return m_sky.radiance; } ///< [nits]
 
-    /// Records the pass into the bound linear image. `frameSet` holds the depth image; `slot` is
-    /// that of MaterialSet.
+    /// Binds the sky to a slot of MaterialSet. No frame in flight may use it.
+    void bind(std::uint32_t slot) { m_texture.with(m_panorama.view, slot); }
+
+    /// Records the pass into the bound linear image, for the slot that was bound. `frameSet` holds
+    /// the depth image.
     void record(VkCommandBuffer cmd, VkDescriptorSet frameSet, std::uint32_t slot);
 
 private:

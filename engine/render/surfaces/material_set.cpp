@@ -185,8 +185,11 @@ bool MaterialSet::update(const Scene& scene) {
     if (newSets || m_materials != scene.materials) {
         ++version;
         bands.clear();
-        for (const Material& m : scene.materials)
+        transmits.clear();
+        for (const Material& m : scene.materials) {
+            transmits.push_back(m.transmission > 0);
             bands.push_back(std::uint8_t(receiverBands(*scene.assets, m, kMaxBands)));
+        }
     }
     m_materials = scene.materials;
     if (!newSets && !newMasks)

@@ -40,6 +40,7 @@ public:
     std::vector<std::uint32_t> features;
     std::vector<bool> doubleSided;
     std::vector<bool> isGlassSheet;  ///< per material: casts no shadow
+    std::vector<bool> transmits;     ///< per material: something is seen through it
     std::vector<std::uint8_t> bands; ///< bands of indirect light that each material reflects
 
 private:

@@ -33,6 +33,9 @@ public:
         return m_sets[slot];
     }
 
+    /// The set of what with() bound last.
+    VkDescriptorSet set(std::uint32_t slot) const { return m_sets[slot]; }
+
 private:
     gpu::Device& m_device;
     gpu::DescriptorSetLayout m_layout;

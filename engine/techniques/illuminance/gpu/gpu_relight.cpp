@@ -268,7 +268,7 @@ RoundChange GpuRelighter::State::bounce(CacheList caches, bool surfelsRead,
         times.mark(cmd);
         gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kHostRead);
     });
-    const std::vector<double> ms = times.steps();
+    const std::span<const double> ms = times.steps();
     stats.surfelLightMs += ms[0] + ms[3];
     stats.pullMs += ms[1];
     stats.cacheLightMs += ms[2];

@@ -292,7 +292,7 @@ bool GpuPropagation::light(std::span<const GpuSource> sources, std::uint32_t rou
                 recordField(cmd, factors);
             m_times.mark(cmd);
         });
-        const std::vector<double> ms = m_times.steps();
+        const std::span<const double> ms = m_times.steps();
         cost.injectionMs += ms[0];
         cost.propagationMs += ms[1];
         cost.fieldMs += ms[2];

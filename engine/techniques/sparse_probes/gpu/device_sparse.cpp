@@ -131,7 +131,7 @@ RoundChange DeviceSparse::bounce(Work& work) {
         m_times.mark(cmd);
         gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kHostRead);
     });
-    const std::vector<double> ms = m_times.steps();
+    const std::span<const double> ms = m_times.steps();
     work.radiosity += ms[0];
     work.probes += ms[1];
     work.receivers += ms[2];
