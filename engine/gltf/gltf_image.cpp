@@ -3,8 +3,10 @@
 
 #include "engine/core/parallel.h"
 #include "engine/gltf/gltf_accessor.h"
+#include "engine/gltf/gltf_value.h"
 #include "engine/scene/decode_image.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -35,7 +37,19 @@ static Result<Image> decodeOne(GltfFile& file, std::size_t index) {
     return image;
 }
 
-DecodedImages decodeImages(GltfFile& file, const Progress& progress, GltfRepairs& repairs) {
+/// Whether the file requires KHR_texture_basisu for the image.
+static bool isRequired(const tinygltf::Model& model, std::size_t image) {
+    constexpr const char* kBasis = "KHR_texture_basisu";
+    if (std::ranges::find(model.extensionsRequired, kBasis) == model.extensionsRequired.end())
+        return false;
+    return std::ranges::any_of(model.textures, [&](const tinygltf::Texture& texture) {
+        const auto basis = texture.extensions.find(kBasis);
+        return basis != texture.extensions.end() &&
+               wholeNumber(member(basis->second, "source")) == image;
+    });
+}
+
+Result<DecodedImages> decodeImages(GltfFile& file, const Progress& progress, GltfRepairs& repairs) {
     DecodedImages decoded;
     std::vector<Image>& images = decoded.images;
     images.resize(file.model.images.size());
@@ -51,6 +65,8 @@ DecodedImages decodeImages(GltfFile& file, const Progress& progress, GltfRepairs
     });
     for (std::size_t i = 0; i < images.size(); ++i)
         if (!problems[i].empty()) {
+            if (isRequired(file.model, i))
+                return fail(fmt::format("images[{}] '{}' {}", i, images[i].name, problems[i]));
             images[i].width = images[i].height = 1;
             images[i].rgba.assign(4, 255);
             decoded.missing.push_back(std::uint32_t(i));

@@ -22,8 +22,9 @@ struct DecodedImages {
 };
 
 /// Decodes the file's images in parallel and frees their encoded bytes. An image that is missing or
-/// cannot be decoded becomes one white texel and is reported in `repairs`. Progress stage "images";
-/// the result is incomplete when cancelled.
-DecodedImages decodeImages(GltfFile& file, const Progress& progress, GltfRepairs& repairs);
+/// cannot be decoded becomes one white texel and is reported in `repairs`. Fails on one that
+/// KHR_texture_basisu names where the file requires that. Progress stage "images"; the result is
+/// incomplete when cancelled.
+Result<DecodedImages> decodeImages(GltfFile& file, const Progress& progress, GltfRepairs& repairs);
 
 } // namespace limn

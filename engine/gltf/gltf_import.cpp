@@ -264,9 +264,11 @@ static Result<ImportedScene> import(const std::string& path, const Progress& pro
 
     if (const std::string defect = reachDefect(flatten(scene.document, assets)); !defect.empty())
         return fail(defect);
-    DecodedImages decoded = decodeImages(*file, progress, repairs);
-    assets->images = std::move(decoded.images);
-    darkenWithout(decoded.missing, scene.document);
+    Result<DecodedImages> decoded = decodeImages(*file, progress, repairs);
+    if (!decoded)
+        return tl::make_unexpected(decoded.error());
+    assets->images = std::move(decoded->images);
+    darkenWithout(decoded->missing, scene.document);
     if (progress.cancelled())
         return fail("cancelled");
     scene.assets = std::move(assets);

@@ -54,12 +54,19 @@ static void applyTransform(TextureRef& texture, const tinygltf::Value& transform
 }
 
 /// Index of a texture's image, which EXT_texture_webp may name; the other one is for programs that
-/// cannot read it. -1: it has none.
+/// cannot read it. That of KHR_texture_basisu, most kinds of which are not read, is the last
+/// choice. -1: it has none.
 static std::int32_t imageOf(const tinygltf::Texture& source) {
-    const tinygltf::Value* webp = extension(source.extensions, "EXT_texture_webp");
-    const std::optional<std::size_t> image =
-        webp ? wholeNumber(member(*webp, "source")) : std::nullopt;
-    return image ? std::int32_t(*image) : source.source;
+    const auto named = [&](const char* name) {
+        const tinygltf::Value* value = extension(source.extensions, name);
+        const std::optional<std::size_t> image =
+            value ? wholeNumber(member(*value, "source")) : std::nullopt;
+        return image ? std::int32_t(*image) : -1;
+    };
+    const std::int32_t webp = named("EXT_texture_webp");
+    if (webp >= 0)
+        return webp;
+    return source.source >= 0 ? source.source : named("KHR_texture_basisu");
 }
 
 template <class Info>

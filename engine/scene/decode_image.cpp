@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/decode_image.h"
 
+#include "engine/scene/ktx2_image.h"
+
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -24,8 +26,6 @@ constexpr std::array<std::uint8_t, 3> kJpeg = {0xff, 0xd8, 0xff};
 /// Upper limit for any image: deflate packs 1032 bytes into one, each with eight black or white
 /// texels.
 constexpr std::uint64_t kMaxTexelsPerByte = 8 * 1032;
-
-constexpr std::array<std::uint8_t, 6> kKtx2 = {0xab, 'K', 'T', 'X', ' ', '2'};
 
 bool startsWith(Bytes bytes, Bytes signature) {
     return bytes.size() >= signature.size() &&
@@ -150,6 +150,18 @@ private:
     Bytes m_bytes;
 };
 
+/// One KTX2 in memory whose header was read.
+class Ktx2Reader {
+public:
+    explicit Ktx2Reader(const Ktx2Picture& picture) : m_picture(picture) {}
+
+    std::optional<ImageSize> size() const { return m_picture.size; }
+    bool read(std::vector<std::uint8_t>& rgba) { return decodeKtx2Picture(m_picture, rgba); }
+
+private:
+    Ktx2Picture m_picture;
+};
+
 template <class Reader>
 Result<ImageSize> checkedSize(const Reader& reader, Bytes bytes) {
     const std::optional<ImageSize> size = reader.size();
@@ -188,9 +200,13 @@ Result<T> readBy(Bytes bytes, const Use& use) {
         return use(JpegReader(bytes));
     if (isWebp(bytes))
         return use(WebpReader(bytes));
-    if (startsWith(bytes, kKtx2))
-        return fail("is KTX2, which is not supported");
-    return fail("is neither PNG, JPEG nor WebP");
+    if (isKtx2(bytes)) {
+        const Result<Ktx2Picture> picture = readKtx2Picture(bytes);
+        if (!picture)
+            return tl::make_unexpected(picture.error());
+        return use(Ktx2Reader(*picture));
+    }
+    return fail("is neither PNG, JPEG, WebP nor KTX2");
 }
 
 } // namespace

@@ -17,12 +17,13 @@ struct ImageSize {
     std::uint32_t width = 0, height = 0;
 };
 
-/// What the header of a PNG, JPEG or WebP says, whatever the file is called. Fails on all else, and
-/// on sizes of zero or above kMaxTexels. Messages say what the image is or does: "is too large".
+/// What the header of a PNG, JPEG, WebP or KTX2 (ktx2_image.h) says, whatever the file is called.
+/// Fails on all else, and on sizes of zero or above kMaxTexels. Messages say what the image is or
+/// does: "is too large".
 Result<ImageSize> imageSize(std::span<const std::uint8_t> bytes);
 
-/// Decodes a PNG, JPEG or WebP to RGBA. Of moving WebPs, none is read. Fails as imageSize() does,
-/// and on damaged texels.
+/// Decodes a PNG, JPEG, WebP or KTX2 to RGBA. Of moving WebPs, none is read. Fails as imageSize()
+/// does, and on damaged texels.
 Result<Image> decodeImage(std::span<const std::uint8_t> bytes);
 
 } // namespace limn

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PNG and JPEG.
+// PNG, JPEG, WebP and KTX2.
 #include "tests/fuzz/target.h"
 
 #include "engine/scene/decode_image.h"

@@ -10,6 +10,7 @@
 #include "tests/fuzz/small_room.h"
 #include "tests/fuzz/target.h"
 #include "tests/gltf/packed_scenes.h"
+#include "tests/scene/small_ktx2.h"
 #include "tests/scene/small_png.h"
 
 #include <filesystem>
@@ -78,6 +79,14 @@ void writeImages(const TemporaryFolder&, const auto& write) {
         stbi_write_png_to_func(append, &png, 16, 8, channels, texels.data(), 16 * channels);
         write("channels" + std::to_string(channels) + ".png", png);
     }
+    for (const std::uint32_t packing : {0U, 2U})
+        for (const auto& [format, size] :
+             {std::pair(9U, 15U), {29U, 45U}, {44U, 60U}, {132U, 16U}, {138U, 32U}}) {
+            const std::vector<std::uint8_t> file =
+                ktx2(format, 5, 3, std::string(texels.begin(), texels.begin() + size), packing);
+            write(std::to_string(format) + (packing ? "_zstd.ktx2" : ".ktx2"),
+                  std::string(file.begin(), file.end()));
+        }
     write("bits1.png", plainPng(5, 3, 1, 0, false, false));
     write("bits16.png", plainPng(3, 3, 16, 6, false, false));
     write("palette.png", plainPng(5, 3, 4, 3, false, true));

@@ -2,6 +2,7 @@
 #include "engine/core/process_memory.h"
 #include "engine/scene/decode_image.h"
 
+#include "tests/scene/small_ktx2.h"
 #include "tests/scene/small_png.h"
 
 #include <array>
@@ -40,8 +41,64 @@ TEST(DecodeImage, ReadsNothingThatGltfDoesNotHave) {
     const std::string bmp = "BM" + std::string(52, '\0');
     for (const std::string& bytes :
          {ppm, tga, bmp, std::string("GIF89a"), std::string("8BPS"), std::string("\x89PN")})
-        EXPECT_EQ(problem(bytesOf(bytes)), "is neither PNG, JPEG nor WebP") << bytes.substr(0, 4);
+        EXPECT_EQ(problem(bytesOf(bytes)), "is neither PNG, JPEG, WebP nor KTX2")
+            << bytes.substr(0, 4);
     EXPECT_EQ(problem({}), "is missing");
+}
+
+TEST(DecodeImage, ReadsKtx2OfBytes) {
+    using Rgba = std::vector<std::uint8_t>;
+    for (const std::uint32_t packing : {0U, 2U}) {
+        const auto read = [&](std::uint32_t format, const std::string& texels) {
+            const Result<Image> image = decodeImage(ktx2(format, 2, 1, texels, packing));
+            EXPECT_TRUE(image) << image.error().message;
+            return image ? image->rgba : Rgba();
+        };
+        EXPECT_EQ(read(9, "\1\2"), (Rgba{1, 1, 1, 255, 2, 2, 2, 255}));
+        EXPECT_EQ(read(29, "\1\2\3\4\5\6"), (Rgba{1, 2, 3, 255, 4, 5, 6, 255}));
+        EXPECT_EQ(read(43, "\1\2\3\4\5\6\7\x8"), (Rgba{1, 2, 3, 4, 5, 6, 7, 8}));
+        EXPECT_EQ(read(44, "\1\2\3\4\5\6\7\x8"), (Rgba{3, 2, 1, 4, 7, 6, 5, 8}));
+    }
+}
+
+/// A block of BC1 whose four colours are two ends, in 5, 6 and 5 bits, and their thirds; one of BC3
+/// has alphas before it.
+TEST(DecodeImage, ReadsKtx2OfBlocks) {
+    const std::string colors("\x00\xf8\x1f\x00\xe4\xe4\xe4\xe4",
+                             8); // red, blue; 0, 1, 2, 3 in each row
+    const Result<Image> image = decodeImage(ktx2(132, 5, 3, colors + colors));
+    ASSERT_TRUE(image) << image.error().message;
+    ASSERT_EQ(image->rgba.size(), 60U);
+    const int red[5] = {255, 0, 170, 85, 255}, blue[5] = {0, 255, 85, 170, 0};
+    for (std::size_t i = 0; i < 15; ++i) {
+        EXPECT_NEAR(image->rgba[4 * i], red[i % 5], 1) << i;
+        EXPECT_EQ(image->rgba[4 * i + 1], 0) << i;
+        EXPECT_NEAR(image->rgba[4 * i + 2], blue[i % 5], 1) << i;
+        EXPECT_EQ(image->rgba[4 * i + 3], 255) << i;
+    }
+    const std::string alphas("\x40\x80\0\0\0\0\0\0", 8); // all texels have the first
+    const Result<Image> clear = decodeImage(ktx2(137, 4, 4, alphas + colors, 2));
+    ASSERT_TRUE(clear) << clear.error().message;
+    EXPECT_EQ(clear->rgba[3], 0x40);
+    EXPECT_NEAR(clear->rgba[4 * 3], 85, 1);
+}
+
+TEST(DecodeImage, NamesTheKtx2ThatItDoesNotRead) {
+    const std::string texels(64, '\0');
+    EXPECT_EQ(problem(ktx2(0, 4, 4, texels, 1)),
+              "is KTX2 of Basis Universal (ETC1S), which is not read");
+    EXPECT_EQ(problem(ktx2(0, 4, 4, texels)),
+              "is KTX2 of Basis Universal (UASTC), which is not read");
+    EXPECT_EQ(problem(ktx2(145, 4, 4, texels)), "is KTX2 of BC7, which is not read");
+    EXPECT_EQ(problem(ktx2(151, 4, 4, texels)), "is KTX2 of ETC2, which is not read");
+    EXPECT_EQ(problem(ktx2(157, 4, 4, texels)), "is KTX2 of ASTC, which is not read");
+    EXPECT_EQ(problem(ktx2(97, 4, 4, texels)), "is KTX2 of Vulkan's format 97, which is not read");
+    const std::vector<std::uint8_t> whole = ktx2(37, 4, 4, texels, 2);
+    ASSERT_EQ(problem(whole), "");
+    for (std::size_t length = 12; length < whole.size(); ++length)
+        EXPECT_EQ(problem({whole.begin(), whole.begin() + std::ptrdiff_t(length)}), "is damaged");
+    EXPECT_EQ(problem(ktx2(37, 5, 4, texels)), "is damaged");
+    EXPECT_EQ(problem(ktx2(37, 1 << 15, 1 << 15, texels)), "is damaged");
 }
 
 TEST(DecodeImage, RefusesSizesBeforeItAllocates) {

@@ -7,6 +7,7 @@
 #include "engine/scene/light/rectangle_light.h"
 #include "engine/scene/surface/dielectric.h"
 #include "tests/gltf/gltf_builder.h"
+#include "tests/scene/small_ktx2.h"
 
 #include <algorithm>
 #include <cmath>
@@ -326,6 +327,37 @@ TEST(GltfKinds, PhotometricFilesAreProfilesOfPoints) {
         EXPECT_TRUE(std::ranges::any_of(scene->repairs, [&](const std::string& repair) {
             return repair.find(defect) != std::string::npos;
         })) << defect;
+}
+
+/// An image that only KHR_texture_basisu names is read where it is no Basis Universal; where it is,
+/// the file is refused if it requires the extension.
+TEST(GltfKinds, TexturesOfBasisuAreReadOrRefusedByName) {
+    for (const bool isBasis : {false, true})
+        for (const bool isRequired : {false, true}) {
+            GltfBuilder b = triangleScene();
+            const std::uint32_t format = isBasis ? 0 : 43;
+            b.json["images"] = {{{"bufferView", b.view(ktx2(format, 1, 1, "\x20\x40\x60\x80"))},
+                                 {"mimeType", "image/ktx2"}}};
+            b.json["textures"] = {{{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}}};
+            b.json["materials"] = {
+                {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+            b.json["extensionsUsed"] = {"KHR_texture_basisu"};
+            if (isRequired)
+                b.json["extensionsRequired"] = {"KHR_texture_basisu"};
+            const Result<ImportedScene> scene = b.import();
+            ASSERT_EQ(bool(scene), !isBasis || !isRequired);
+            if (!scene) {
+                EXPECT_NE(scene.error().message.find("images[0] 'images[0]' is KTX2 of Basis "
+                                                     "Universal (UASTC), which is not read"),
+                          std::string::npos)
+                    << scene.error().message;
+                continue;
+            }
+            ASSERT_EQ(scene->assets->images.size(), 1U);
+            EXPECT_EQ(scene->assets->images[0].rgba,
+                      isBasis ? std::vector<std::uint8_t>(4, 255)
+                              : std::vector<std::uint8_t>({0x20, 0x40, 0x60, 0x80}));
+        }
 }
 
 /// KHR_lights_punctual on the node of a profile is for readers without profiles; a sun is another
