@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes pictures of 32-bit floats as OpenEXR: scan lines without compression.
+// Pictures of 32-bit floats in OpenEXR: writes scan lines without compression, and reads what Limn writes, ZIP of red, green and blue.
+import zlib from 'node:zlib';
 
 /** `rgb`: Float32Array of width * height * 3, row 0 at the top. */
 export function encodeExr(width, height, rgb) {
@@ -28,4 +29,33 @@ export function encodeExr(width, height, rgb) {
         rows.push(row);
     }
     return Buffer.concat([head, offsets, ...rows]);
+}
+
+/** Lines of a block of ZIP, whose bytes are differences, the even ones first. */
+function unzipped(block, size) {
+    if (block.length === size) return block;
+    const packed = zlib.inflateSync(block), bytes = Buffer.alloc(size), half = Math.ceil(size / 2);
+    for (let i = 1; i < size; ++i) packed[i] = packed[i - 1] + packed[i] - 128;
+    for (let i = 0; i < size; ++i) bytes[i] = packed[i % 2 === 0 ? i / 2 : half + (i - 1) / 2];
+    return bytes;
+}
+
+/** Reads what `limn` wrote: { width, height, rgb }, as encodeExr() takes them. */
+export function decodeExr(file) {
+    let i = 8, width = 0, height = 0;
+    while (file[i] !== 0) {
+        const nameEnd = file.indexOf(0, i), typeEnd = file.indexOf(0, nameEnd + 1), size = file.readInt32LE(typeEnd + 1);
+        if (file.toString('latin1', i, nameEnd) === 'dataWindow') [width, height] = [8, 12].map((k) => file.readInt32LE(typeEnd + 5 + k) + 1);
+        i = typeEnd + 5 + size;
+    }
+    const lines = 16, rgb = new Float32Array(3 * width * height);
+    for (let block = 0; block * lines < height; ++block) {
+        const offset = Number(file.readBigUInt64LE(i + 1 + 8 * block)), rows = Math.min(lines, height - block * lines);
+        const bytes = unzipped(file.subarray(offset + 8, offset + 8 + file.readInt32LE(offset + 4)), rows * width * 12);
+        for (let row = 0; row < rows; ++row)
+            for (let c = 0; c < 3; ++c) // blue, green, red
+                for (let x = 0; x < width; ++x)
+                    rgb[3 * ((block * lines + row) * width + x) + 2 - c] = bytes.readFloatLE(4 * ((3 * row + c) * width + x));
+    }
+    return { width, height, rgb };
 }

@@ -7,9 +7,10 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { openBrowser, serve, visit } from './browser.mjs';
-import { encodeExr } from './exr.mjs';
+import { decodeExr, encodeExr } from './exr.mjs';
 import { pack } from './godot/pack.mjs';
 
+const kFine = 3; // pixels of Limn's pictures along a side of an engine's
 const here = path.dirname(fileURLToPath(import.meta.url)), root = path.join(here, '../..');
 const shared = path.join(root, '../shared/scenes');
 const known = {
@@ -70,10 +71,18 @@ for (const name of chosen.length > 0 ? chosen : Object.keys(known)) {
         return file;
     };
     const eye = from ? ['--eye', from.eye.join(), '--target', from.target.join(), '--fov', from.fov] : [];
-    for (const file of ['irradiance.exr', 'indirect.exr', 'lit.exr', 'lit.png'])
-        limn('render', ...scene, '--bake', bake, '--view', path.parse(file).name, '--width', width, '--height', height, ...eye,
-            '--spp', 1, '--gather-rays', 128, // engines see one point of a pixel, its middle
-            ...(file.endsWith('.png') ? ['--tonemap', 'none'] : []), '-o', path.join(folder, `limn-${file}`));
+    const draw = (view, fine, file, ...more) => limn('render', ...scene, '--bake', bake, '--device', 'cpu', '--view', view, '--width', fine * width,
+        '--height', fine * height, '--spp', 16, ...eye, ...more, '-o', path.join(folder, file));
+    // Textures are filtered over an engine's pixel, but of surfaces without them one point of it is seen, its middle.
+    draw('irradiance', kFine, 'limn-fine.exr');
+    const fine = decodeExr(fs.readFileSync(path.join(folder, 'limn-fine.exr'))), middle = (kFine - 1) / 2;
+    const rgb = Float32Array.from({ length: 3 * width * height }, (_, i) => {
+        const pixel = Math.floor(i / 3), x = pixel % width, y = Math.floor(pixel / width);
+        return fine.rgb[3 * ((kFine * y + middle) * fine.width + kFine * x + middle) + i % 3];
+    });
+    fs.writeFileSync(path.join(folder, 'limn-irradiance.exr'), encodeExr(width, height, rgb));
+    for (const view of ['indirect', 'lit']) draw(view, 1, `limn-${view}.exr`);
+    draw('lit', 1, 'limn-lit.png', '--tonemap', 'none');
     for (const [engine, view, options] of [
         ['three', 'irradiance', ['--encoding', 'ktx2-half']], ['three', 'irradiance', ['--lightmap-bands', 3]], ['babylon', 'indirect', []],
         ['playcanvas', null, []], ['godot', 'irradiance', []], ['godot', 'irradiance', ['--lightmap-bands', 2]]]) {
