@@ -13,6 +13,7 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -26,10 +27,11 @@ Light withoutName(Light l) {
     return l;
 }
 
-std::uint64_t hashOccluders(const Scene& scene) {
+std::uint64_t hashOccluders(const Scene& scene, bool dynamic) {
     std::uint64_t h = 3;
     for (const Instance& i : scene.instances)
-        h = hashBytes(&i.toWorld, sizeof i.toWorld, hashValue(i.mesh, h));
+        if (i.dynamic == dynamic)
+            h = hashBytes(&i.toWorld, sizeof i.toWorld, hashValue(i.mesh, h));
     return h;
 }
 
@@ -56,81 +58,143 @@ float rectangleShare(const TraceScene& trace, const std::vector<LightRectangle>&
     return sum;
 }
 
-/// Adds up the light of a point light, a spot or a sun at many positions. Shadow rays are traced
-/// several at once, since light reaches neighbours from about the same direction.
-class PointShares {
-    /// What a ray adds to a point where it is not occluded.
-    struct Share {
-        std::size_t point;
-        float light;
-    };
-    auto open() const {
-        return [this](const Share& s) { m_share[s.point] += s.light; };
-    }
+/// Positions with normals, of which every `each` in turn form one point.
+struct Points {
+    std::span<const glm::vec3> positions, normals;
+    std::uint32_t each = 1;
 
-public:
-    PointShares(const TraceScene& trace, const Light& light, std::uint32_t each,
-                std::span<float> share)
-        : m_trace(trace), m_light(light), m_each(each), m_share(share),
-          m_rays(trace, TraceMask::All) {}
-
-    /// Adds position `index`, and the normal there, to the mean of its point.
-    void add(std::size_t index, glm::vec3 p, glm::vec3 n) {
-        const LightSample sample = sampleLight(m_light, p);
-        const float cosTheta = glm::dot(n, sample.toLight);
-        if (!(cosTheta > 0) || !(sample.irradiance.x > 0))
-            return;
-        m_rays.add(
-            {m_trace.clearOf(p, n), sample.toLight, 0, sample.distance - m_trace.epsilonAt(p)},
-            {index / m_each, sample.irradiance.x * cosTheta / float(m_each)}, open());
-    }
-
-    /// Traces the rays that wait.
-    void flush() { m_rays.flush(open()); }
-
-    std::uint64_t traced() const { return m_rays.traced(); }
-
-private:
-    const TraceScene& m_trace;
-    const Light& m_light;
-    std::uint32_t m_each;
-    std::span<float> m_share;
-    RaysTogether<Share> m_rays;
+    std::size_t count() const { return positions.size() / each; }
 };
 
-// Returns the shadow rays traced.
-std::uint64_t traceLight(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals,
-                         std::uint32_t each, const TraceScene& trace,
-                         DirectIrradiance::PerLight& out) {
-    // A ray that grazes an edge may depend on those traced with it. Blocks are the same for any
-    // number of threads, and so are the rays that are traced together.
-    constexpr std::size_t kBlock = 256;
-    const std::vector<LightRectangle> rectangles = rectanglesOf(out.light, trace.scene());
-    const std::size_t points = positions.size() / each;
-    out.share.assign(points, 0);
-    const std::uint32_t samples = std::max(DirectIrradiance::kRectanglePoints / each, 1U);
-    std::atomic<std::uint64_t> rays = 0;
-    const auto lightBlock = [&](std::size_t begin, std::size_t end) {
-        if (rectangles.empty()) {
-            PointShares shares(trace, out.light, each, out.share);
-            for (std::size_t index = begin * each; index < end * each; ++index)
-                shares.add(index, positions[index], normals[index]);
-            shares.flush();
-            return shares.traced();
-        }
-        std::uint64_t mine = 0;
-        for (std::size_t index = begin * each; index < end * each; ++index)
-            out.share[index / each] +=
-                rectangleShare(trace, rectangles, positions[index], normals[index],
-                               std::uint32_t(index), samples, mine) /
-                float(each);
-        return mine;
+/// Blocks of points are the same for any number of threads, and so are the rays that are traced
+/// together: one that grazes an edge may depend on the others. A block has whole words of bits.
+constexpr std::size_t kBlock = 256;
+
+/// Lights points by a point light, a spot or a sun. Shadow rays are traced several at once, since
+/// light reaches neighbours from about the same direction.
+class PointShares {
+public:
+    PointShares(const TraceScene& trace, const Points& points, DirectIrradiance::PerLight& out)
+        : m_trace(trace), m_points(points), m_light(out.light), m_out(out),
+          m_anyMoving(std::ranges::any_of(trace.scene().instances, &Instance::dynamic)) {
+        if (m_light.kind == LightKind::Directional)
+            m_sun = sampleLight(m_light, glm::vec3(0)); // the same everywhere
+    }
+
+    /// Lights points [begin, end). `knowsStill`: `open` is that of the static instances. Returns
+    /// the number of rays.
+    std::uint64_t light(std::size_t begin, std::size_t end, bool knowsStill) const {
+        std::fill(m_out.share.begin() + std::ptrdiff_t(begin),
+                  m_out.share.begin() + std::ptrdiff_t(end), 0.f);
+        const std::uint64_t rays = knowsStill ? 0 : traceStill(begin, end);
+        if (!knowsStill && !m_anyMoving)
+            return rays;
+        return rays + traceMoving(begin, end);
+    }
+
+private:
+    /// What a ray adds to a point where it is not occluded.
+    struct Share {
+        std::size_t position, point;
+        float light;
     };
+
+    /// Calls body(ray, share) for each position of a point whose front the light reaches.
+    template <class Body>
+    void forEachRay(std::size_t point, const Body& body) const {
+        for (std::uint32_t k = 0; k < m_points.each; ++k) {
+            const std::size_t i = point * m_points.each + k;
+            const glm::vec3 p = m_points.positions[i], n = m_points.normals[i];
+            const LightSample sample = m_sun ? *m_sun : sampleLight(m_light, p);
+            const float cosTheta = glm::dot(n, sample.toLight);
+            if (!(cosTheta > 0) || !(sample.irradiance.x > 0))
+                continue;
+            const float epsilon = m_trace.epsilonAt(p);
+            body(Ray{p + epsilon * n, sample.toLight, 0, sample.distance - epsilon},
+                 Share{i, point, sample.irradiance.x * cosTheta / float(m_points.each)});
+        }
+    }
+    void add(const Share& s) const { m_out.share[s.point] += s.light; }
+
+    /// Finds the positions that see the light past what stands still, and lights the points where
+    /// nothing moves.
+    std::uint64_t traceStill(std::size_t begin, std::size_t end) const {
+        const auto first = m_out.open.begin() + std::ptrdiff_t(begin * m_points.each / 64);
+        std::fill_n(first, ((end - begin) * m_points.each + 63) / 64, std::uint64_t(0));
+        RaysTogether<Share> rays(m_trace, TraceMask::Static);
+        const auto open = [&](const Share& s) {
+            m_out.open[s.position / 64] |= std::uint64_t(1) << s.position % 64;
+            if (!m_anyMoving)
+                add(s);
+        };
+        for (std::size_t point = begin; point < end; ++point)
+            forEachRay(point, [&](const Ray& ray, const Share& s) { rays.add(ray, s, open); });
+        rays.flush(open);
+        return rays.traced();
+    }
+
+    /// Lights the points from the positions that see the light past what moves, too.
+    std::uint64_t traceMoving(std::size_t begin, std::size_t end) const {
+        RaysTogether<Share> rays(m_trace, TraceMask::Dynamic);
+        const auto open = [&](const Share& s) { add(s); };
+        for (std::size_t point = begin; point < end; ++point)
+            forEachRay(point, [&](const Ray& ray, const Share& s) {
+                if ((m_out.open[s.position / 64] >> s.position % 64 & 1) == 0)
+                    return;
+                if (m_anyMoving)
+                    rays.add(ray, s, open);
+                else
+                    add(s);
+            });
+        rays.flush(open);
+        return rays.traced();
+    }
+
+    const TraceScene& m_trace;
+    const Points& m_points;
+    const Light& m_light;
+    DirectIrradiance::PerLight& m_out;
+    std::optional<LightSample> m_sun; ///< of a directional light
+    bool m_anyMoving;
+};
+
+/// Calls light(begin, end) for blocks of points, which returns a number of rays, and sums these.
+template <class LightBlock>
+std::uint64_t forBlocks(std::size_t points, const LightBlock& light) {
+    std::atomic<std::uint64_t> rays = 0;
     parallelRanges((points + kBlock - 1) / kBlock, 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t b = begin; b < end; ++b)
-            rays += lightBlock(b * kBlock, std::min((b + 1) * kBlock, points));
+            rays += light(b * kBlock, std::min((b + 1) * kBlock, points));
     });
     return rays;
+}
+
+// Returns the shadow rays traced. `knowsStill`: as PointShares takes it.
+std::uint64_t traceLight(const Points& points, const TraceScene& trace, bool knowsStill,
+                         DirectIrradiance::PerLight& out) {
+    out.share.resize(points.count());
+    if (out.light.kind != LightKind::Rectangle) {
+        out.open.resize((points.positions.size() + 63) / 64);
+        const PointShares shares(trace, points, out);
+        return forBlocks(points.count(), [&](std::size_t begin, std::size_t end) {
+            return shares.light(begin, end, knowsStill);
+        });
+    }
+    out.open.clear();
+    const std::vector<LightRectangle> rectangles = rectanglesOf(out.light, trace.scene());
+    const std::uint32_t samples = std::max(DirectIrradiance::kRectanglePoints / points.each, 1U);
+    return forBlocks(points.count(), [&](std::size_t begin, std::size_t end) {
+        std::uint64_t rays = 0;
+        for (std::size_t point = begin; point < end; ++point) {
+            out.share[point] = 0;
+            for (std::size_t i = point * points.each; i < (point + 1) * points.each; ++i)
+                out.share[point] +=
+                    rectangleShare(trace, rectangles, points.positions[i], points.normals[i],
+                                   std::uint32_t(i), samples, rays) /
+                    float(points.each);
+        }
+        return rays;
+    });
 }
 
 void sumLights(std::size_t points, DirectIrradiance& state) {
@@ -161,34 +225,40 @@ bool updateDirectIrradiance(std::span<const glm::vec3> positions,
     for (const Light& l : scene.lights)
         if (shines(l) && reaches(l, state.bounds))
             lights.push_back(withoutName(l));
-    const std::uint64_t occluders = hashOccluders(trace.scene());
-    if (occluders != state.occluders)
-        for (DirectIrradiance::PerLight& light : state.lights)
-            light.light.enabled = false; // matches no light that shines
-    else if (lights == state.summed && state.irradiance.size() == points)
+    const std::uint64_t still = hashOccluders(trace.scene(), false),
+                        moving = hashOccluders(trace.scene(), true);
+    const bool stillSame = still == state.still, movingSame = moving == state.moving;
+    if (stillSame && movingSame && lights == state.summed && state.irradiance.size() == points)
         return false;
-    state.occluders = occluders;
+    state.still = still;
+    state.moving = moving;
 
-    const auto hasShare = [](const DirectIrradiance::PerLight& l) { return !l.share.empty(); };
     std::vector<DirectIrradiance::PerLight>& known = state.known;
     known.clear();
     std::swap(known, state.lights);
+    const auto isUnused = [](const DirectIrradiance::PerLight& l) { return !l.share.empty(); };
     for (const Light& light : lights) {
-        state.lights.push_back({unitLight(light), {}});
+        state.lights.push_back({unitLight(light), {}, {}});
         DirectIrradiance::PerLight& next = state.lights.back();
         const auto same = std::ranges::find_if(
-            known, [&](const auto& l) { return l.light == next.light && hasShare(l); });
-        if (same != known.end())
+            known, [&](const auto& l) { return l.light == next.light && isUnused(l); });
+        if (stillSame && same != known.end()) {
             std::swap(next.share, same->share);
+            std::swap(next.open, same->open);
+        }
     }
     auto gone = known.begin(); // unused entries, whose memory is reused
     for (DirectIrradiance::PerLight& light : state.lights) {
-        if (hasShare(light))
+        const bool isKnown = !light.share.empty();
+        if (isKnown && movingSame)
             continue;
-        gone = std::find_if(gone, known.end(), hasShare);
-        if (gone != known.end())
+        const bool knowsStill = isKnown && !light.open.empty();
+        gone = isKnown ? gone : std::find_if(gone, known.end(), isUnused);
+        if (!isKnown && gone != known.end()) {
             std::swap(light.share, gone->share);
-        state.raysTraced += traceLight(positions, normals, each, trace, light);
+            std::swap(light.open, gone->open);
+        }
+        state.raysTraced += traceLight({positions, normals, each}, trace, knowsStill, light);
         ++state.lightsTraced;
     }
     std::swap(state.summed, lights);

@@ -23,11 +23,14 @@ struct DirectIrradiance {
         Light light; ///< as traced
         std::vector<float>
             share; ///< irradiance / (color * strength) at each point, shadow included
+        /// A bit per position, of words of 64: nothing static is in the way, and the light reaches
+        /// its front. Empty for rectangles, which many rays of a position sample.
+        std::vector<std::uint64_t> open;
     };
     std::vector<PerLight> lights;
-    std::uint64_t occluders = 0; ///< hash of the instances that the shadows belong to
-    std::vector<Light> summed;   ///< lights that `irradiance` sums, without names
-    Bounds bounds;               ///< of the points
+    std::uint64_t still = 0, moving = 0; ///< hashes of the instances that the shadows belong to
+    std::vector<Light> summed;           ///< lights that `irradiance` sums, without names
+    Bounds bounds;                       ///< of the points
 
     std::vector<glm::vec3> irradiance; ///< [W m^-2] per point, all lights
     std::uint32_t lightsTraced = 0;    ///< by the last update
@@ -42,8 +45,9 @@ struct DirectIrradiance {
 /// Brings `state` up to date with the scene's lights at positions with unit normals, on the side
 /// that is lit. Every `each` positions in turn form one point, whose light is the mean over them.
 /// Lights that are off, black, of no strength, out of reach of every point, or unchanged cost
-/// nothing. Returns true if any irradiance changed. The points are the same at every call with that
-/// state.
+/// nothing. Where only dynamic objects have moved, rays are traced against these alone, from the
+/// positions that see the light past everything else. Returns true if any irradiance changed. The
+/// points are the same at every call with that state.
 bool updateDirectIrradiance(std::span<const glm::vec3> positions,
                             std::span<const glm::vec3> normals, const Scene& scene,
                             const TraceScene& trace, DirectIrradiance& state,

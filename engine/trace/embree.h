@@ -8,6 +8,9 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include "engine/trace/ray_packet.h"
+
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -80,21 +83,27 @@ inline void embreeOccluded(RTCScene scene, RTCRay& ray) {
 #endif
 }
 
-/// Occlusion of up to eight rays that run alike; valid: -1 for those to trace, else 0.
-inline void embreeOccluded(RTCScene scene, const int* valid, RTCRay8& rays) {
-#if RTC_VERSION_MAJOR >= 4
+static_assert(sizeof(RayPacket) == sizeof(RTCRay8) && alignof(RayPacket) == alignof(RTCRay8) &&
+              offsetof(RayPacket, directionX) == offsetof(RTCRay8, dir_x) &&
+              offsetof(RayPacket, tFar) == offsetof(RTCRay8, tfar) &&
+              offsetof(RayPacket, flags) == offsetof(RTCRay8, flags));
+
+/// Occlusion of rays that run alike; valid: -1 for those to trace, else 0. Eight are traced at
+/// once: with sixteen, some queries of Embree 3.13 never end.
+inline void embreeOccluded(RTCScene scene, const int* valid, RayPacket& packet) {
+    auto* rays = reinterpret_cast<RTCRay8*>(&packet);
     EmbreeContext context;
+#if RTC_VERSION_MAJOR >= 4
     rtcInitRayQueryContext(&context);
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
     arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
     arguments.context = &context;
-    rtcOccluded8(valid, scene, &rays, &arguments);
+    rtcOccluded8(valid, scene, rays, &arguments);
 #else
-    EmbreeContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcOccluded8(valid, scene, &context, &rays);
+    rtcOccluded8(valid, scene, &context, rays);
 #endif
 }
 

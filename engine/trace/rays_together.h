@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "engine/trace/trace_scene.h"
-
-#include <array>
-#include <cstddef>
-#include <cstdint>
+#include "engine/trace/ray_packet.h"
 
 namespace limn {
 
-/// Collects rays and traces them kTogether at once, in their order. Each carries a `What`, which
-/// tells what it is for. Rays that follow each other should run alike.
+/// Collects rays and traces them as many at once as a packet holds, in their order. Each carries a
+/// `What`, which tells what it is for. Rays that follow each other should run alike.
 template <class What>
 class RaysTogether {
 public:
@@ -20,16 +16,16 @@ public:
     /// Adds a ray. Calls open(what) for those that turn out not to be occluded, here or in flush().
     template <class Open>
     void add(const Ray& ray, const What& what, const Open& open) {
-        m_rays[m_count] = ray;
+        m_rays.set(m_count, ray);
         m_what[m_count] = what;
-        if (++m_count == m_rays.size())
+        if (++m_count == RayPacket::kSize)
             flush(open);
     }
 
     /// Traces the rays that wait.
     template <class Open>
     void flush(const Open& open) {
-        const std::uint32_t hidden = m_trace.occludedTogether({m_rays.data(), m_count}, m_mask);
+        const std::uint32_t hidden = m_trace.occludedTogether(m_rays, m_count, m_mask);
         for (std::size_t k = 0; k < m_count; ++k)
             if ((hidden >> k & 1) == 0)
                 open(m_what[k]);
@@ -44,8 +40,8 @@ private:
     TraceMask m_mask;
     std::size_t m_count = 0; ///< rays that wait
     std::uint64_t m_traced = 0;
-    std::array<Ray, TraceScene::kTogether> m_rays;
-    std::array<What, TraceScene::kTogether> m_what;
+    RayPacket m_rays;
+    std::array<What, RayPacket::kSize> m_what;
 };
 
 } // namespace limn

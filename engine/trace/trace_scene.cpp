@@ -482,32 +482,19 @@ bool TraceScene::occluded(const Ray& ray, TraceMask mask) const {
            meets(m_impl->sheets, TraceMask::Sheets);
 }
 
-std::uint32_t TraceScene::occludedTogether(std::span<const Ray> rays, TraceMask mask) const {
-    assert(rays.size() <= kTogether);
-    RTCRay8 all{};
-    alignas(32) std::array<int, kTogether> valid{};
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-        const Ray& ray = rays[k];
-        if (!m_impl->traceable(ray))
-            continue;
-        all.org_x[k] = ray.origin.x;
-        all.org_y[k] = ray.origin.y;
-        all.org_z[k] = ray.origin.z;
-        all.dir_x[k] = ray.direction.x;
-        all.dir_y[k] = ray.direction.y;
-        all.dir_z[k] = ray.direction.z;
-        all.tnear[k] = ray.tNear;
-        all.tfar[k] = ray.tFar;
-        all.mask[k] = ~0u;
-        valid[k] = -1;
-    }
+std::uint32_t TraceScene::occludedTogether(RayPacket& rays, std::size_t count,
+                                           TraceMask mask) const {
+    assert(count <= RayPacket::kSize);
+    alignas(32) RayPacket::Lanes<int> valid{}; // -1: to trace
+    for (std::size_t k = 0; k < count; ++k)
+        valid[k] = m_impl->traceable(rays.ray(k)) ? -1 : 0;
     std::uint32_t met = 0;
     const auto trace = [&](const std::shared_ptr<const Trees>& trees, TraceMask which) {
         if (!trees || !asks(mask, which))
             return;
-        embreeOccluded(trees->top, valid.data(), all);
-        for (std::size_t k = 0; k < rays.size(); ++k)
-            if (valid[k] != 0 && all.tfar[k] < 0) {
+        embreeOccluded(trees->top, valid.data(), rays);
+        for (std::size_t k = 0; k < count; ++k)
+            if (valid[k] != 0 && rays.tFar[k] < 0) {
                 met |= 1U << k;
                 valid[k] = 0;
             }

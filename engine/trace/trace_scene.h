@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <span>
 #include <vector>
 
 namespace limn {
@@ -20,6 +19,8 @@ struct Ray {
 
 /// The ray from one point to another, where it ends. It meets nothing where both coincide.
 Ray rayBetween(glm::vec3 from, glm::vec3 to);
+
+struct RayPacket;
 
 /// Closest surface along a ray. Rays pass through alpha-masked texels.
 struct SurfaceHit {
@@ -75,10 +76,10 @@ public:
     /// Whether anything opaque lies in (tNear, tFar). Bad rays are handled as by closestHit().
     bool occluded(const Ray& ray, TraceMask mask = TraceMask::All) const;
 
-    /// Which of at most kTogether rays are occluded(): bit k for ray k. Faster than one after
-    /// another where they run alike. A ray that grazes an edge may get another answer than alone.
-    static constexpr std::size_t kTogether = 8;
-    std::uint32_t occludedTogether(std::span<const Ray> rays,
+    /// Which of the first `count` rays of a packet are occluded(): bit k for ray k. Faster than one
+    /// after another where they run alike. A ray that grazes an edge may get another answer than
+    /// alone.
+    std::uint32_t occludedTogether(RayPacket& rays, std::size_t count,
                                    TraceMask mask = TraceMask::All) const;
 
     /// Whether anything opaque lies between two points, both clear of their own surfaces.

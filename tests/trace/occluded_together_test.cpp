@@ -2,6 +2,7 @@
 #include "engine/trace/rays_together.h"
 
 #include "tests/trace/masked.h"
+#include "tests/trace/occluded_together.h"
 
 #include <gtest/gtest.h>
 
@@ -49,8 +50,8 @@ TEST(OccludedTogether, RaysHaveTheirOwnAnswerInAnyCompany) {
     for (const TraceMask mask : {TraceMask::Static, TraceMask::Dynamic, TraceMask::All}) {
         std::size_t occluded = 0, begin = 0;
         for (std::size_t count = 0; begin + count <= rays.size();
-             begin += count, count = (count + 1) % (TraceScene::kTogether + 1)) {
-            const std::uint32_t found = trace.occludedTogether({&rays[begin], count}, mask);
+             begin += count, count = (count + 1) % (RayPacket::kSize + 1)) {
+            const std::uint32_t found = occludedTogether(trace, {&rays[begin], count}, mask);
             EXPECT_EQ(found >> count, 0u);
             for (std::size_t k = 0; k < count; ++k) {
                 const bool alone = trace.occluded(rays[begin + k], mask);
@@ -65,24 +66,24 @@ TEST(OccludedTogether, RaysHaveTheirOwnAnswerInAnyCompany) {
 
 TEST(OccludedTogether, ARayOfNoUseIsCountedAndHarmsNoOther) {
     const TraceScene trace(furnishedRoom());
-    std::vector<Ray> rays(TraceScene::kTogether, Ray{{0, 0, -3}, {0, 0, -1}});
+    std::vector<Ray> rays(8, Ray{{0, 0, -3}, {0, 0, -1}});
     rays[1].origin.x = std::nanf("");
     rays[2].direction.y = std::numeric_limits<float>::infinity();
     rays[5].tFar = 0.5f;
     rays[6].tFar = -1; // an empty stretch
-    EXPECT_EQ(trace.occludedTogether(rays), 0b10011001u);
+    EXPECT_EQ(occludedTogether(trace, rays), 0b10011001u);
     EXPECT_EQ(trace.badRays(), 2u);
 }
 
 TEST(OccludedTogether, AnEmptySceneHidesNothing) {
     const TraceScene trace(SceneBuilder().build());
-    EXPECT_EQ(trace.occludedTogether(raysIn(8, 3)), 0u);
-    EXPECT_EQ(trace.occludedTogether({}), 0u);
+    EXPECT_EQ(occludedTogether(trace, raysIn(8, 3)), 0u);
+    EXPECT_EQ(occludedTogether(trace, {}), 0u);
 }
 
 TEST(OccludedTogether, RaysAreAllTracedInTheirOrder) {
     const TraceScene trace(furnishedRoom());
-    const std::vector<Ray> all = raysIn(8 * TraceScene::kTogether + 3, 3);
+    const std::vector<Ray> all = raysIn(8 * RayPacket::kSize + 3, 3);
     std::vector<std::size_t> expected, found;
     const auto open = [&](std::size_t k) { found.push_back(k); };
     RaysTogether<std::size_t> rays(trace, TraceMask::Static);

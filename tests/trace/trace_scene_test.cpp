@@ -299,7 +299,7 @@ TEST(TraceScene, LightPassesSheetsOfGlassThatWhoLooksSees) {
         {
             const TraceScene trace(b.build());
             EXPECT_FALSE(trace.occluded(ray));
-            EXPECT_EQ(trace.occludedTogether(std::array{ray, further}), 2U);
+            EXPECT_EQ(occludedTogether(trace, std::array{ray, further}), 2U);
             EXPECT_EQ(trace.closestHit(further).instance, 1U);
             EXPECT_EQ(trace.closestHit(further, TraceMask::Static).instance, 1U);
             EXPECT_TRUE(trace.occluded(ray, TraceMask::Seen));
@@ -391,7 +391,7 @@ TEST(TraceScene, AStretchBetweenEqualPointsMeetsNothing) {
     EXPECT_FALSE(trace.blocked({0, 0, 1}, {0, 0, 0.5f}));
     const Ray none = rayBetween(glm::vec3(0), glm::vec3(0));
     EXPECT_FALSE(trace.occluded(none));
-    EXPECT_EQ(trace.occludedTogether({&none, 1}), 0u);
+    EXPECT_EQ(occludedTogether(trace, {&none, 1}), 0u);
     EXPECT_EQ(trace.badRays(), 0u);
 }
 
