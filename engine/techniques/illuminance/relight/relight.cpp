@@ -56,6 +56,7 @@ struct Relighter::State {
     CacheFlags current;       ///< caches for which the field holds the light of the last pull
     CacheFlags missing, rest; ///< working space
     CacheRuns someRuns;       ///< the same
+    std::vector<RoundChange> blockChange; ///< the same
     bool unread = false; ///< surfels have not read that light yet; inner() has it for `current`
 
     LinkOcclusion occlusion;
@@ -247,15 +248,30 @@ void Relighter::State::lightSeen(const CacheFlags& which, bool newLight) {
 
 /// B = albedo (E_direct + E_indirect) + pi L_e.
 RoundChange Relighter::State::lightSurfels() {
+    constexpr std::size_t kBlock = 1024; // sums are the same for any number of threads
     const Surfels& s = bake->surfels;
+    const auto lightBlock = [&](std::size_t begin, std::size_t end) {
+        RoundChange sum;
+        for (std::size_t i = begin; i < end; ++i) {
+            const glm::vec3 b = albedo[i] * (direct.irradiance[i] + indirect[i]) + emitted[i];
+            const glm::vec3 d = glm::abs(b - glm::vec3(radiosity[i]));
+            sum.change += double(d.x + d.y + d.z) * s.area[i];
+            sum.total += double(b.x + b.y + b.z) * s.area[i];
+            sum.relative += double(relativeChange(d.x + d.y + d.z, b.x + b.y + b.z) * seenShare[i]);
+            radiosity[i] = withLuma(b);
+        }
+        return sum;
+    };
+    blockChange.resize((s.size() + kBlock - 1) / kBlock);
+    parallelRanges(blockChange.size(), 4, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k)
+            blockChange[k] = lightBlock(k * kBlock, std::min((k + 1) * kBlock, s.size()));
+    });
     RoundChange round;
-    for (std::size_t i = 0; i < s.size(); ++i) {
-        const glm::vec3 b = albedo[i] * (direct.irradiance[i] + indirect[i]) + emitted[i];
-        const glm::vec3 d = glm::abs(b - glm::vec3(radiosity[i]));
-        round.change += double(d.x + d.y + d.z) * s.area[i];
-        round.total += double(b.x + b.y + b.z) * s.area[i];
-        round.relative += double(relativeChange(d.x + d.y + d.z, b.x + b.y + b.z) * seenShare[i]);
-        radiosity[i] = withLuma(b);
+    for (const RoundChange& block : blockChange) {
+        round.change += block.change;
+        round.total += block.total;
+        round.relative += block.relative;
     }
     return round;
 }
@@ -292,7 +308,7 @@ std::uint64_t Relighter::State::bytes() const {
                occluded.cones.links, occluded.cones.linkBegin, occluded.cones.linkExponent,
                occluded.halfs, occlusion.places, direct.irradiance, direct.before);
     for (const DirectIrradiance::PerLight& light : direct.lights)
-        sum += sizeOf(light.share);
+        sum += sizeOf(light.share, light.open);
     return sum;
 }
 

@@ -5,6 +5,7 @@
 #include "engine/core/parallel.h"
 #include "engine/lightmap/density_fields.h"
 #include "engine/lightmap/layout/layout_rules.h"
+#include "engine/math/morton.h"
 #include "engine/math/sampling.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/scene/mesh/mesh_topology.h"
@@ -265,6 +266,31 @@ void appendInstance(const Scene& scene, std::uint32_t index, const MeshSurfels& 
     }
 }
 
+/// Orders points so that those which follow each other lie close together and face alike: their
+/// shadow rays are traced together.
+void orderAlongCurve(const Mesh& mesh, std::vector<MeshPoint>& points) {
+    constexpr int kBits = 10,
+                  kPointsPerCell =
+                      64; // of the curve along each axis; of those that are sorted by facing
+    const Bounds bounds = boundsOf(mesh.positions);
+    const glm::vec3 size = glm::max(bounds.size(), 1e-30f);
+    const double cells = std::max(double(points.size()) / kPointsPerCell, 1.0); // on a surface
+    const int coarse = std::min(int(std::lround(std::log2(cells) / 2)), kBits);
+    std::vector<std::pair<std::uint64_t, MeshPoint>> keyed;
+    keyed.reserve(points.size());
+    for (const MeshPoint& p : points) {
+        const std::uint64_t code =
+            mortonCode((trianglePoint(mesh, p.triangle, p.barycentric) - bounds.lower) / size);
+        const glm::vec3 n = triangleNormal(mesh, p.triangle);
+        const std::uint64_t octant =
+            (n.x > 0 ? 4U : 0U) | (n.y > 0 ? 2U : 0U) | (n.z > 0 ? 1U : 0U);
+        keyed.emplace_back(
+            code >> (3 * (kBits - coarse)) << (3 * kBits + 3) | octant << (3 * kBits) | code, p);
+    }
+    std::ranges::stable_sort(keyed, {}, &std::pair<std::uint64_t, MeshPoint>::first);
+    std::ranges::transform(keyed, points.begin(), [](const auto& k) { return k.second; });
+}
+
 } // namespace
 
 MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided,
@@ -278,6 +304,7 @@ MeshSurfels placeSurfels(const Mesh& mesh, std::uint32_t count, bool twoSided,
     std::vector<MeshPoint> points = pointsByWeight(mesh, count, density, weight, placement);
     if (placement == SurfelPlacement::Relaxed)
         relax(mesh, hexagonalSpacing(float(weight / count)), density, points, progress);
+    orderAlongCurve(mesh, points);
     if (!density.uniform())
         result.areas = areasOf(points, density, total);
     result.density = std::move(density);
