@@ -285,14 +285,17 @@ TEST_F(ViewportSurfelLight, GivesWayToNumbersAndComesBack) {
     prepare(court());
     half.direct.assign(made->surfels.size(), glm::vec3(0));
     const std::vector<glm::vec3> lit = irradiance();
+    const auto brightest = std::size_t(
+        std::ranges::max_element(lit, {}, [](glm::vec3 e) { return e.x; }) - lit.begin());
     const auto numbers = [&] {
         const bool skipped = relighter->relight(half.inputs(), 200).skipped;
-        return skipped ? -1.f : relighter->readRadiosity()[0].x;
+        return skipped ? -1.f : relighter->readRadiosity()[brightest].x;
     };
-    ASSERT_GT(lit[0].x, 0);
+    const float value = lit[brightest].x;
+    ASSERT_GT(value, 0);
     for (int round = 0; round < 2; ++round) {
-        EXPECT_NEAR(numbers(), 0, 1e-3f * lit[0].x) << round;
-        EXPECT_GE(irradiance()[0].x, lit[0].x) << round;
+        EXPECT_NEAR(numbers(), 0, 1e-3f * value) << round;
+        EXPECT_GE(irradiance()[brightest].x, value) << round;
     }
 }
 

@@ -116,20 +116,24 @@ TEST(LightPoints, LieUnderAPlateAsOftenAsItCoversTheFloor) {
     b.add(box(glm::vec3(0), glm::vec3(4, 2, 4), true));
     b.add(box({0.013f, 0.02f, 0.013f}, {2, 0.03f, 3.987f}, false));
     Scene scene = b.build();
-    scene.bake.surfels = 200;
     scene.bake.lightmapCaches = 4000;
     scene.bake.rays = 256;
-    const Surfels s = bakedSurfels(scene);
     double covered = 0, all = 0;
-    for (std::size_t k = 0; k < s.lightPoints.size(); ++k) {
-        const std::size_t surfel = k / kLightPoints;
-        if (s.lightPoints[k].y > 1e-3f || s.lightNormals[k].y < 0.9f)
-            continue;
-        all += double(s.area[surfel]);
-        covered += s.lightPoints[k].x < 2 ? double(s.area[surfel]) : 0;
+    // About 25 of a floor's 160 points may lie on either side of the edge, so that a bake scatters
+    // by 0.015.
+    for (std::uint32_t surfels = 160; surfels <= 240; surfels += 10) {
+        scene.bake.surfels = surfels;
+        const Surfels s = bakedSurfels(scene);
+        for (std::size_t k = 0; k < s.lightPoints.size(); ++k) {
+            const std::size_t surfel = k / kLightPoints;
+            if (s.lightPoints[k].y > 1e-3f || s.lightNormals[k].y < 0.9f)
+                continue;
+            all += double(s.area[surfel]);
+            covered += s.lightPoints[k].x < 2 ? double(s.area[surfel]) : 0;
+        }
     }
     std::printf("covered %.4f of 0.5\n", covered / all);
-    EXPECT_NEAR(covered / all, 0.5, 0.015);
+    EXPECT_NEAR(covered / all, 0.5, 0.015); // three times the scatter of nine bakes
 }
 
 // Few patches cover the ball, and each spans a wide angle.
