@@ -27,7 +27,8 @@ static ExportSettings ownSettings(ExportSettings settings) {
 static Result<std::vector<ExportFile>> write(const ExportScene& scene,
                                              const ExportSettings& settings,
                                              const std::string& name, const Progress& progress) {
-    // Its loader adds a light with a profile to the one without, which other loaders show.
+    // Babylon.js makes two lights of a node with both extensions, so that it would be twice as
+    // bright.
     LitSceneParts parts{.reflections = kReflections, .profiles = false};
     if (!scene.field.grid.empty()) {
         const Sh3 mean = meanProbe(scene.field);

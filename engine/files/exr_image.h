@@ -11,7 +11,7 @@
 
 namespace limn {
 
-/// Whether the file begins as OpenEXR files do.
+/// Whether the file begins with the magic number of OpenEXR.
 bool isExr(std::span<const std::uint8_t> file);
 
 /// Decodes the first part of an OpenEXR file that has the channels R, G and B, or Y, in scan lines

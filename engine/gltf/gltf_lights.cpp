@@ -22,6 +22,11 @@ static glm::vec3 axis(const glm::mat4& toWorld, glm::vec3 local, glm::vec3 other
     return length > 0 && std::isfinite(length) ? glm::vec3(d / length) : otherwise;
 }
 
+/// The name of a light whose node may have one.
+static std::string lightName(const std::string& nodeName, const std::string& name) {
+    return !nodeName.empty() ? nodeName : !name.empty() ? name : "Light";
+}
+
 static float notNegative(double value, GltfRepairs& repairs) {
     const float f = float(value);
     if (f >= 0 && std::isfinite(f))
@@ -61,7 +66,7 @@ static std::optional<Light> punctualLight(const tinygltf::Light& source,
         repairs.add("lights of unknown type left out");
         return {};
     }
-    light.name = !nodeName.empty() ? nodeName : !source.name.empty() ? source.name : "Light";
+    light.name = lightName(nodeName, source.name);
     light.position = glm::vec3(toWorld[3]);
     light.direction = axis(toWorld, {0, 0, -1}, {0, -1, 0});
     if (source.color.size() == 3)
@@ -101,7 +106,7 @@ static void addAreaLight(Document& document, const tinygltf::Value& source,
         return;
     }
     Light light{.kind = LightKind::Rectangle, .enabled = visible};
-    light.name = !nodeName.empty() ? nodeName : !name.empty() ? name : "Light";
+    light.name = lightName(nodeName, name);
     light.position = glm::vec3(toWorld[3]);
     light.direction = axis(toWorld, {0, 0, -1}, {0, -1, 0});
     light.color = colorOf(source, repairs);
@@ -226,9 +231,7 @@ std::optional<std::size_t> addLightAndCamera(Document& document, const tinygltf:
     if (profile) {
         if (!isOne) {
             light = Light{.kind = LightKind::Point, .enabled = visible};
-            light->name = !node.name.empty()       ? node.name
-                          : !profile->name.empty() ? profile->name
-                                                   : "Light";
+            light->name = lightName(node.name, profile->name);
             light->position = glm::vec3(toWorld[3]);
             light->direction = axis(toWorld, {0, 0, -1}, {0, -1, 0});
         }

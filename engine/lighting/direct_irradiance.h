@@ -23,8 +23,9 @@ struct DirectIrradiance {
         Light light; ///< as traced
         std::vector<float>
             share; ///< irradiance / (color * strength) at each point, shadow included
-        /// A bit per position, of words of 64: nothing static is in the way, and the light reaches
-        /// its front. Empty for rectangles, which many rays of a position sample.
+        /// One bit for each position, in words of 64. It is set where the light reaches the front
+        /// of the surface and no static instance blocks it. Empty for rectangles, to which a
+        /// position sends several rays.
         std::vector<std::uint64_t> open;
     };
     std::vector<PerLight> lights;

@@ -275,7 +275,7 @@ void Viewport::Impl::recordSurfaces(VkCommandBuffer cmd, const GeometryView& vie
                         slotIndex, sets.set(slotIndex));
 }
 
-// Makes an image of the linear one's size.
+// Makes `image` anew where its size is not that of the linear image.
 void Viewport::Impl::ensureLike(gpu::Image& image, const char* name) {
     const gpu::Image& linear = targets.linear;
     if (image.width != linear.width || image.height != linear.height)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/ktx2_image.h"
 
+#include "engine/scene/ktx2_header.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -14,24 +16,6 @@ namespace limn {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
-
-constexpr std::array<std::uint8_t, 12> kIdentifier = {0xab, 'K',  'T',  'X',  ' ',  '2',
-                                                      '0',  0xbb, '\r', '\n', 0x1a, '\n'};
-
-/// Words of 32 bits behind the identifier.
-enum Word : std::uint32_t {
-    kVkFormat,
-    kTypeSize,
-    kWidth,
-    kHeight,
-    kDepth,
-    kLayers,
-    kFaces,
-    kLevels,
-    kSupercompression,
-    kWords = 13
-};
-constexpr std::size_t kLevelIndex = kIdentifier.size() + 4 * kWords + 16, kLevelBytes = 24;
 
 template <class T>
 T numberAt(Bytes bytes, std::size_t offset) { // little-endian, as all machines that this runs on
@@ -89,36 +73,36 @@ tl::unexpected<Error> notRead(const std::string& what) {
 } // namespace
 
 bool isKtx2(Bytes bytes) {
-    return bytes.size() >= kIdentifier.size() &&
-           std::equal(kIdentifier.begin(), kIdentifier.end(), bytes.begin());
+    return bytes.size() >= kKtx2Identifier.size() &&
+           std::equal(kKtx2Identifier.begin(), kKtx2Identifier.end(), bytes.begin());
 }
 
 Result<Ktx2Picture> readKtx2Picture(Bytes bytes) {
-    if (bytes.size() < kLevelIndex + kLevelBytes)
+    if (bytes.size() < kKtx2Header)
         return fail("is damaged");
-    const auto word = [&](Word w) {
-        return numberAt<std::uint32_t>(bytes, kIdentifier.size() + 4 * std::size_t(w));
+    const auto word = [&](Ktx2Word w) {
+        return numberAt<std::uint32_t>(bytes, kKtx2Identifier.size() + 4 * std::size_t(w));
     };
-    constexpr std::uint32_t kNone = 0, kBasisLz = 1, kZstd = 2;
-    const std::uint32_t packing = word(kSupercompression);
+    constexpr std::uint32_t kNone = 0, kBasisLz = 1;
+    const std::uint32_t packing = word(kKtx2Supercompression);
     if (packing == kBasisLz)
         return notRead("Basis Universal (ETC1S)");
-    if (word(kVkFormat) == 0)
+    if (word(kKtx2VkFormat) == 0)
         return notRead("Basis Universal (UASTC)");
-    if (packing != kNone && packing != kZstd)
+    if (packing != kNone && packing != kKtx2Zstd)
         return notRead(fmt::format("supercompression {}", packing));
-    const Format* format = formatOf(word(kVkFormat));
+    const Format* format = formatOf(word(kKtx2VkFormat));
     if (!format)
-        return notRead(nameOfFormat(word(kVkFormat)));
-    if (word(kDepth) != 0 || word(kLayers) > 1 || word(kFaces) != 1)
+        return notRead(nameOfFormat(word(kKtx2VkFormat)));
+    if (word(kKtx2Depth) != 0 || word(kKtx2Layers) > 1 || word(kKtx2Faces) != 1)
         return notRead("a volume, an array or a cube");
-    Ktx2Picture picture{.size = {word(kWidth), word(kHeight)},
-                        .format = word(kVkFormat),
-                        .isPacked = packing == kZstd,
+    Ktx2Picture picture{.size = {word(kKtx2Width), word(kKtx2Height)},
+                        .format = word(kKtx2VkFormat),
+                        .isPacked = packing == kKtx2Zstd,
                         .stored = {},
-                        .bytes = numberAt<std::uint64_t>(bytes, kLevelIndex + 16)};
-    const auto offset = numberAt<std::uint64_t>(bytes, kLevelIndex),
-               stored = numberAt<std::uint64_t>(bytes, kLevelIndex + 8);
+                        .bytes = numberAt<std::uint64_t>(bytes, kKtx2LevelIndex + 16)};
+    const auto offset = numberAt<std::uint64_t>(bytes, kKtx2LevelIndex),
+               stored = numberAt<std::uint64_t>(bytes, kKtx2LevelIndex + 8);
     if (picture.size.width == 0 || picture.size.height == 0 || offset > bytes.size() ||
         stored > bytes.size() - offset || picture.bytes != bytesOf(*format, picture.size) ||
         (!picture.isPacked && stored != picture.bytes))

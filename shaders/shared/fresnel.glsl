@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// limn::fresnelDielectric().
+// The share of light that a smooth boundary between dielectrics reflects, as limn::fresnelDielectric() computes it.
 
 float fresnelDielectric(float cosine, float eta) {
     const float incident = clamp(cosine, 0.0, 1.0);
