@@ -39,6 +39,8 @@ struct RelightJob::Worker {
     std::optional<Scene> relit;          ///< what is lit where the bake is older than the scene
 
     bool hasWork() const { return lighting && scene && !driver.done(); }
+    /// What waits for other work, and shows nothing.
+    bool hasIdleWork() const { return lighting && scene && driver.canSolve(); }
     bool lights() const { return lighting && driver.lighting(); }
     bool lightsView() const { return lights() && driver.lighting()->isOfView(); }
     void setLighting(bool here);
@@ -46,6 +48,7 @@ struct RelightJob::Worker {
     void takeScene(std::shared_ptr<const Scene> next);
     void takeBake(BakedScene next);
     void makeLighting();
+    LightingInput input();
     void relight(const Progress& progress);
     std::shared_ptr<const IndirectField> copyField();
     std::shared_ptr<const LightSnapshot> copyLit() const;
@@ -95,13 +98,16 @@ void RelightJob::Worker::lookFrom(const std::optional<Viewpoint>& next) {
         driver.viewIs(*view);
 }
 
-void RelightJob::Worker::relight(const Progress& progress) {
+LightingInput RelightJob::Worker::input() {
     const bool fresh = !lightsBake || inputHash == baked.bake->inputHash();
     const Scene& shown = fresh ? *scene : relit.emplace(relitScene(*baked.scene, *scene));
-    const LightingInput input{.scene = shown,
-                              .trace = fresh ? trace.get() : baked.trace.get(),
-                              .view = view ? &*view : nullptr};
-    countUpdate(status, driver, driver.step(input, LightingDriver::Rest::All, progress));
+    return {.scene = shown,
+            .trace = fresh ? trace.get() : baked.trace.get(),
+            .view = view ? &*view : nullptr};
+}
+
+void RelightJob::Worker::relight(const Progress& progress) {
+    countUpdate(status, driver, driver.step(input(), LightingDriver::Rest::All, progress));
 }
 
 std::shared_ptr<const IndirectField> RelightJob::Worker::copyField() {
@@ -210,13 +216,20 @@ void RelightJob::run() {
     const Progress progress{.report = {}, .cancel = &m_cancel};
     std::unique_lock lock(m_mutex);
     for (;;) {
-        m_changed.wait(lock, [&] {
-            return m_stop || m_nextScene || m_nextBake || m_lighting != worker.lighting ||
+        const auto isAsked = [&] {
+            return m_nextScene || m_nextBake || m_lighting != worker.lighting ||
                    m_keepLit != worker.lit.has_value() || worker.hasWork() ||
                    (worker.lightsView() && m_view != worker.newestView);
-        });
+        };
+        m_changed.wait(lock, [&] { return m_stop || isAsked() || worker.hasIdleWork(); });
         if (m_stop)
             return;
+        if (!isAsked()) {
+            lock.unlock();
+            worker.driver.solveSources(worker.input(), progress);
+            lock.lock();
+            continue;
+        }
         worker.setLighting(m_lighting);
         auto scene = std::exchange(m_nextScene, nullptr);
         auto baked = std::exchange(m_nextBake, {});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lighting/direct_irradiance.h"
 
-#include "engine/core/hash.h"
 #include "engine/core/parallel.h"
+#include "engine/lighting/occluder_hash.h"
 #include "engine/math/sampling.h"
 #include "engine/scene/light/light_parts.h"
 #include "engine/scene/light/unit_light.h"
@@ -25,14 +25,6 @@ namespace {
 Light withoutName(Light l) {
     l.name.clear();
     return l;
-}
-
-std::uint64_t hashOccluders(const Scene& scene, bool dynamic) {
-    std::uint64_t h = 3;
-    for (const Instance& i : scene.instances)
-        if (i.dynamic == dynamic)
-            h = hashBytes(&i.toWorld, sizeof i.toWorld, hashValue(i.mesh, h));
-    return h;
 }
 
 /// The rectangles from which a light shines; empty: a point.

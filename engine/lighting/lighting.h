@@ -42,6 +42,13 @@ public:
     /// left out.
     virtual LightingReport update(const LightingInput& input, const Progress& progress) = 0;
 
+    /// Uses idle time, once the light of `input` is converged everywhere: finds the light of one of
+    /// the scene's sources alone, or a part of it, so that changes of its colour and strength need
+    /// no bounce. Leaves the light as it is. Returns false when nothing is left to find.
+    virtual bool solveSources(const LightingInput& /*input*/, const Progress& /*progress*/) {
+        return false;
+    }
+
     /// The light on the CPU, valid until the next update; null if it exists on the device only.
     virtual const IndirectField* field() const = 0;
 

@@ -14,6 +14,7 @@ LightingDriver::LightingDriver(std::unique_ptr<Lighting> lighting)
 
 void LightingDriver::lightChanged() {
     m_converged = m_whole = false;
+    m_unsolved = true;
     m_bounces = 0;
 }
 
@@ -44,6 +45,11 @@ std::optional<LightingReport> LightingDriver::step(LightingInput input, Rest res
     m_bounces += report.bounces;
     m_converged = report.converged || m_bounces >= maxBounces;
     return report;
+}
+
+void LightingDriver::solveSources(const LightingInput& input, const Progress& progress) {
+    if (canSolve())
+        m_unsolved = m_lighting->solveSources(input, progress);
 }
 
 } // namespace limn

@@ -44,6 +44,12 @@ public:
     std::optional<LightingReport> step(LightingInput input, Rest rest,
                                        const Progress& progress = {});
 
+    /// Whether done() and there may be something for solveSources() to do.
+    bool canSolve() const { return m_lighting && done() && m_unsolved; }
+
+    /// Calls Lighting::solveSources() for the light of `input`, which is done().
+    void solveSources(const LightingInput& input, const Progress& progress = {});
+
     Lighting* lighting() const { return m_lighting.get(); }
 
 private:
@@ -51,6 +57,7 @@ private:
     std::uint32_t m_bounces = 0;
     std::optional<Viewpoint> m_view; ///< where the light is of a view
     bool m_converged = false, m_whole = false, m_everWhole = false;
+    bool m_unsolved = true;
 };
 
 /// Number of bounces between two checks of user input: 2, or all of them if there are few.

@@ -91,6 +91,35 @@ TEST_F(RelightJobTest, LightsWhatIsSeenWhileALightMovesAndAllAtRest) {
     EXPECT_GT(difference(before, full.field(), seen(b)), 0.1) << "which the old light is not";
 }
 
+TEST_F(RelightJobTest, FindsTheLightOfSourcesWhileItRestsAndThenSumsIt) {
+    std::atomic<int> summed = 0;
+    RelightJob* running = nullptr;
+    RelightJob job([&] {
+        const LightingReport last = running->result().status.last;
+        summed += !last.steps.empty() && last.bounces == 0 && !last.converged;
+    });
+    running = &job;
+    job.setScene(scene);
+    job.setBake({data, scene, trace});
+    ASSERT_TRUE(until([&] { return rests(job); }));
+    Scene brighter = *scene;
+    const auto brightened = [&] {
+        brighter.lights[0].strength *= 1.1f;
+        const auto next = std::make_shared<const Scene>(brighter);
+        job.setScene(next);
+        const bool rested = until([&] { return rests(job) && job.result().hashedScene == next; });
+        EXPECT_TRUE(rested);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return summed > 0;
+    };
+    EXPECT_TRUE(until(brightened)) << "nothing says when sources are found, so edits go on";
+    Relighter full(made);
+    full.relight(brighter, *trace, 64);
+    EXPECT_LT(
+        difference(*job.result().field, full.field(), CacheFlags(made->caches.lightmapCount, 1)),
+        1e-3);
+}
+
 TEST_F(RelightJobTest, WhatComesIntoViewIsRightWithTheNextField) {
     const auto moved = lampAt(*scene, {3.2f, 1.8f, 4});
     std::atomic<bool> looks = false, looked = false;

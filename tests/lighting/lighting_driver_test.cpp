@@ -19,6 +19,7 @@ struct FakeLighting : Lighting {
     std::vector<Call>& calls;
     std::uint32_t needed;
     std::uint32_t done = 0;
+    int unsolved = 0; ///< steps of solveSources()
     bool ofView = false;
 
     FakeLighting(std::vector<Call>& to, std::uint32_t bounces) : calls(to), needed(bounces) {}
@@ -31,6 +32,7 @@ struct FakeLighting : Lighting {
         report.whole = input.view == nullptr;
         return report;
     }
+    bool solveSources(const LightingInput&, const Progress&) override { return --unsolved > 0; }
     const IndirectField* field() const override { return nullptr; }
     bool isOfView() const override { return ofView; }
 };
@@ -126,8 +128,32 @@ TEST_F(LightingDriverTest, AnotherViewIsNoChangeOfLightThatIsOfNone) {
     EXPECT_TRUE(d.done());
 }
 
+TEST_F(LightingDriverTest, SolvesSourcesOnlyAtRestAndUntilNoneIsLeft) {
+    auto lighting = std::make_unique<FakeLighting>(calls, 2);
+    const FakeLighting& fake = *lighting;
+    lighting->unsolved = 3;
+    LightingDriver d(std::move(lighting));
+    EXPECT_FALSE(d.canSolve());
+    d.solveSources(input());
+    EXPECT_EQ(fake.unsolved, 3) << "it still has bounces to add";
+    d.step(input(), Rest::All);
+    ASSERT_TRUE(d.done());
+    for (int left = 2; left >= 0; --left) {
+        EXPECT_TRUE(d.canSolve());
+        d.solveSources(input());
+        EXPECT_EQ(fake.unsolved, left);
+    }
+    EXPECT_FALSE(d.canSolve());
+    d.lightChanged();
+    d.step(input(), Rest::All);
+    EXPECT_FALSE(d.canSolve()) << "the rest is not lit yet";
+    d.step(input(), Rest::All);
+    EXPECT_TRUE(d.canSolve()) << "other light may have other sources";
+}
+
 TEST_F(LightingDriverTest, WithoutALightingThereIsNothingToDo) {
     LightingDriver none;
+    EXPECT_FALSE(none.canSolve());
     EXPECT_TRUE(none.done());
     EXPECT_FALSE(none.step(input(), Rest::All));
 }

@@ -79,6 +79,7 @@ static bool print(const std::string& key, const Json& value) {
 }
 
 static void addBenches(Command& bench) {
+    addEditsBench(bench);
     addEnergyBench(bench);
     addErrorBench(bench);
     addGlossyBench(bench);

@@ -9,6 +9,7 @@ namespace limn {
 extern const TechniqueProgram kIlluminanceProgram;
 
 // Each adds a benchmark of a part of the method, bench_NAME.cpp.
+void addEditsBench(Command& bench);
 void addEnergyBench(Command& bench);
 void addErrorBench(Command& bench);
 void addFrameBench(Command& bench);

@@ -18,6 +18,10 @@ LightingReport CpuIlluminance::update(const LightingInput& input, const Progress
     return report;
 }
 
+bool CpuIlluminance::solveSources(const LightingInput& input, const Progress& progress) {
+    return m_solver.solve(m_relighter, input.scene, *input.trace, input.unread, progress);
+}
+
 std::shared_ptr<const IndirectField> CpuIlluminance::emittedField(const Scene& scene) const {
     return std::make_shared<const IndirectField>(limn::emittedField(m_bake, scene));
 }

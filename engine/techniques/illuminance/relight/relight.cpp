@@ -6,8 +6,10 @@
 #include "engine/core/stopwatch.h"
 #include "engine/field/grid_placement.h"
 #include "engine/scene/surface/receiver_bands.h"
+#include "engine/techniques/illuminance/relight/bounce_extrapolation.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
+#include "engine/techniques/illuminance/relight/light_basis.h"
 #include "engine/techniques/illuminance/relight/occlusion/link_occlusion.h"
 #include "engine/techniques/illuminance/relight/surfel_light.h"
 #include "engine/techniques/illuminance/relight/surfel_material.h"
@@ -33,6 +35,7 @@ struct Relighter::State {
     LinkCounts links;                                ///< of this call
     bool started = false;
     Convergence convergence;
+    BounceExtrapolation ahead; ///< while nothing changes
 
     std::vector<Material> materials; ///< materials of `albedo` and `emitted`
     std::vector<float> seenShare;    ///< per surfel
@@ -62,11 +65,20 @@ struct Relighter::State {
     LinkOcclusion occlusion;
     OccludedLinks occluded; ///< by it
 
+    LightBasis basis;
+    std::vector<WeightedSource> sources; ///< of the light in `sh`; kept while the basis holds any
+    bool summed = false; ///< `sh` is a sum of the basis, which surfels have not read yet
+
+    bool colorsApart() const;
+    bool sumSources(const Scene& scene, RelightStats& stats);
+    void readSum();
+
     void light(LightBands in, const CacheRuns& runs, std::vector<glm::vec3>& out);
     std::vector<glm::vec3>& inner();
     void keepInner(const CacheFlags& which);
     void lightRest();
     void readInner();
+    void readBounce();
     void lightSeen(const CacheFlags& which, bool newLight);
 
     void setBands(int count);
@@ -74,6 +86,7 @@ struct Relighter::State {
     bool updateMaterials(const Scene& scene);
     bool updateSky(const Scene& scene);
     RoundChange lightSurfels();
+    void beginBounce();
     void writeField(const CacheFlags& which, bool grid);
     std::uint64_t bytes() const;
 };
@@ -232,6 +245,12 @@ void Relighter::State::readInner() {
     readCaches(bake->surfels, inner(), innerBands.luma, indirect);
 }
 
+/// Lets surfels read the bounce that began last.
+void Relighter::State::readBounce() {
+    readInner();
+    ahead.end({albedo, radiosity, bake->surfels.area, seenShare}, indirect);
+}
+
 /// Lights the caches in `which` for the field, in all bands. `newLight`: surfels have not read the
 /// light of the last pull.
 void Relighter::State::lightSeen(const CacheFlags& which, bool newLight) {
@@ -276,6 +295,18 @@ RoundChange Relighter::State::lightSurfels() {
     return round;
 }
 
+/// Lights the surfels for another bounce. In moving light, of which each update has few bounces,
+/// nothing is extrapolated.
+void Relighter::State::beginBounce() {
+    const RoundChange round = lightSurfels();
+    if (const auto& residual = ahead.residual())
+        convergence.addResidual(residual->change, residual->passedOn);
+    else
+        convergence.addRound(round);
+    if (convergence.rounds() > Convergence::kBringing && !convergence.restarts())
+        ahead.begin(indirect);
+}
+
 void Relighter::State::writeField(const CacheFlags& which, bool grid) {
     const Caches& caches = bake->caches;
     const auto coefficients = std::size_t(bands * bands);
@@ -306,7 +337,8 @@ std::uint64_t Relighter::State::bytes() const {
         sizeOf(halfs, everyLink, beforeSky, seenShare, albedo, emitted, indirect, radiosity, sh,
                innerSh, field.lightmap, field.grid, read, current, missing, rest,
                occluded.cones.links, occluded.cones.linkBegin, occluded.cones.linkExponent,
-               occluded.halfs, occlusion.places, direct.irradiance, direct.before);
+               occluded.halfs, occlusion.places, direct.irradiance, direct.before) +
+        basis.bytes() + ahead.bytes();
     for (const DirectIrradiance::PerLight& light : direct.lights)
         sum += sizeOf(light.share, light.open);
     return sum;
@@ -337,13 +369,15 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     stats.gridCachesSkipped = grid ? 0 : gridCaches;
     gridMissing = grid && !gridLit;
     gridLit = grid;
-    if (materialsChanged || directChanged || gridMissing)
+    if (materialsChanged || directChanged || gridMissing || summed)
         convergence.lightChanged();
     if (skyChanged || occlusionChanged)
         convergence.skyChanged();
     const bool settingsChanged = convergence.applySettings(scene.relight);
     const bool changed = materialsChanged || skyChanged || directChanged || occlusionChanged ||
                          gridMissing || settingsChanged;
+    if (changed || summed)
+        ahead.clear();
     if (changed && convergence.restarts()) {
         std::ranges::fill(indirect, glm::vec3(0));
         unread = false;
@@ -354,6 +388,68 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     return changed;
 }
 
+/// Whether colours of light do not mix: no band is made grey.
+bool Relighter::State::colorsApart() const {
+    return finalBands.chroma == bands && innerBands.chroma == innerBands.luma;
+}
+
+/// Lights the scene by its sources' light, if nothing but their weights has changed. Returns
+/// whether it did.
+bool Relighter::State::sumSources(const Scene& scene, RelightStats& stats) {
+    Stopwatch timer;
+    if (!basis.holdFor(scene))
+        return false;
+    std::vector<WeightedSource> now = lightSources(scene, colorsApart());
+    const bool changed = now != sources;
+    std::swap(sources, now);
+    const auto gridCaches = std::uint32_t(bake->caches.size()) - bake->caches.lightmapCount;
+    const bool grid = gridCaches > 0 && (unreadGrid || needsGrid(scene, bake->lightmap));
+    if (!changed || (grid && !gridLit) || !basis.sum(sources, sh))
+        return false;
+    summed = true;
+    unread = false;
+    current.assign(current.size(), 1);
+    stats.basisMs = timer.lap();
+    writeField(current, gridLit);
+    stats.fieldMs = timer.lap();
+    stats.summed = true;
+    stats.sourcesKept = std::uint32_t(basis.kept());
+    stats.bandsLit = std::uint32_t(bands);
+    stats.bandsSkipped = bake->settings.bands - stats.bandsLit;
+    stats.gridCachesSkipped = gridLit ? 0 : gridCaches;
+    stats.cachesOccluded = occlusion.hidden.caches;
+    stats.linksOccluded = occlusion.hidden.links;
+    stats.bytes = bytes();
+    return true;
+}
+
+/// Lets surfels read the sum of sources' light.
+void Relighter::State::readSum() {
+    summed = false;
+    keepInner(current);
+    readInner();
+}
+
+std::optional<LightSource> Relighter::wantedSource(const Scene& scene) {
+    State& s = *m_state;
+    if (s.summed || !s.convergence.reached() || s.convergence.grows() || s.convergence.restarts() ||
+        std::ranges::count(s.current, 0) > 0)
+        return {};
+    s.basis.holdFor(scene);
+    s.sources = lightSources(scene, s.colorsApart());
+    if (!s.basis.hasSum(s.sources))
+        s.basis.setSum(scene, s.sources, s.sh, std::size_t(s.bands * s.bands));
+    return s.basis.wanted();
+}
+
+void Relighter::keepSource(const LightSource& source, std::span<const glm::vec3> light) {
+    m_state->basis.keep(source, light, std::size_t(m_state->bands * m_state->bands));
+}
+
+std::uint64_t Relighter::sourcesGeneration() const {
+    return m_state->basis.generation();
+}
+
 RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std::uint32_t bounces,
                                 const Progress& progress, const CacheFlags* seen) {
     const FlushDenormals flush;
@@ -361,20 +457,28 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     RelightStats stats;
     Stopwatch total;
     s.links = {};
+    if (s.sumSources(scene, stats)) {
+        stats.totalMs = total.lap();
+        return stats;
+    }
     const bool changed = s.takeScene(scene, trace, stats);
     Stopwatch timer;
     const bool bouncing = bounces > 0 && !s.convergence.reached();
+    if (bouncing && s.summed) {
+        s.readSum();
+        stats.surfelReadMs += timer.lap();
+    }
     if (bouncing) {
         if (s.unread && !changed) {
             s.lightRest();
             stats.cacheLightMs += timer.lap();
-            s.readInner();
+            s.readBounce();
             stats.surfelReadMs += timer.lap();
         }
         s.current.assign(s.current.size(), 0);
     }
     for (bool last = !bouncing; !last;) {
-        s.convergence.addRound(s.lightSurfels());
+        s.beginBounce();
         ++stats.bounces;
         last = s.convergence.reached() || stats.bounces == bounces || progress.cancelled();
         stats.surfelLightMs += timer.lap();
@@ -384,7 +488,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
             break;
         s.light(s.innerBands, s.readRuns, s.inner());
         stats.cacheLightMs += timer.lap();
-        s.readInner();
+        s.readBounce();
         stats.surfelReadMs += timer.lap();
     }
     CacheFlags& lit = s.missing;
@@ -402,14 +506,17 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
             s.lightRest();
         stats.cacheLightMs += timer.lap();
         if (bouncing && !s.unread)
-            s.readInner();
+            s.readBounce();
         stats.surfelReadMs += timer.lap();
         s.writeField(lit, grid);
         stats.fieldMs = timer.lap();
     }
     stats.cachesUnseen = std::uint32_t(std::ranges::count(s.current, 0));
+    stats.sourcesKept = std::uint32_t(s.basis.kept());
     stats.links = s.links.links;
     stats.linksSkipped = s.links.skipped;
+    if (stats.converged)
+        s.ahead.release();
     stats.bytes = s.bytes();
     stats.totalMs = total.lap();
     return stats;

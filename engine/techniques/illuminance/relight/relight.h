@@ -4,6 +4,7 @@
 #include "engine/core/progress.h"
 #include "engine/field/indirect_field.h"
 #include "engine/lighting/direct_irradiance.h"
+#include "engine/lighting/light_sources.h"
 #include "engine/math/sh.h"
 #include "engine/techniques/illuminance/format/bake.h"
 #include "engine/techniques/illuminance/relight/caches/cache_runs.h"
@@ -12,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace limn {
@@ -24,6 +26,7 @@ struct RelightStats {
     double cacheLightMs = 0;  ///< light of the caches, through their links
     double surfelReadMs = 0;  ///< bounced light at the surfels, from the caches
     double fieldMs = 0;       ///< the field that the viewport samples
+    double basisMs = 0;       ///< sum of sources' light, in place of all steps but the field
     double occlusionMs = 0;   ///< which links dynamic objects block; 0 while they stand still
     double totalMs = 0;
     std::uint32_t bounces = 0; ///< iterations run by this call
@@ -43,6 +46,8 @@ struct RelightStats {
     std::uint32_t cachesUnseen = 0;   ///< lightmap caches for which the field keeps older light
     std::uint32_t cachesOccluded = 0; ///< caches that dynamic objects take light from
     std::uint64_t linksOccluded = 0;  ///< of those
+    bool summed = false;              ///< all bounces at once, from sources' light (LightBasis)
+    std::uint32_t sourcesKept = 0;    ///< whose light is known alone
     std::uint64_t bytes = 0;          ///< that this relighter keeps beside the bake; 0: not known
     bool skipped = false; ///< no work was done: nothing had changed and bounces had converged
 };
@@ -110,6 +115,22 @@ public:
     const std::vector<glm::vec3>& cacheSh() const;
 
     RelightState state() const;
+
+    // Where nothing but colours and strengths of sources whose light is kept has changed since the
+    // light was converged, relight() sets it to the sum of theirs. It adds no bounce then and does
+    // not report the light as converged: the next call goes on with bounces, which change little.
+    // Radiosity, state() and direct light remain those of the last call with bounces.
+
+    /// A source of `scene` whose light is worth keeping. None unless the light is converged,
+    /// nothing of it is older, and changes do not restart from no bounced light.
+    std::optional<LightSource> wantedSource(const Scene& scene);
+
+    /// Keeps cacheSh() of a relighter of the same bake and bands that has lit litByOne(scene,
+    /// source), as wantedSource() named it.
+    void keepSource(const LightSource& source, std::span<const glm::vec3> light);
+
+    /// Changes when what was kept of sources no longer holds.
+    std::uint64_t sourcesGeneration() const;
 
 private:
     struct State;

@@ -19,6 +19,11 @@ LightingReport reportOf(const RelightStats& r) {
         {"cache_light", "Cache light",
          "Gathers linked clusters into the caches; finds what moved objects occlude",
          r.cacheLightMs + r.occlusionMs},
+        {"sources", "Sources",
+         "Sum of sources' light that is kept, in place of all other steps but the field, where "
+         "only "
+         "colours and strengths have changed",
+         r.basisMs},
         {"field", "Field", "What the viewport samples, from the caches", r.fieldMs}};
     report.counters = {
         {"passed_on", "Passed on",
@@ -63,6 +68,12 @@ LightingReport reportOf(const RelightStats& r) {
         {"occlusion_ms", "Occlusion",
          "Time to find what dynamic objects occlude; 0 while they stand still", r.occlusionMs,
          CounterUnit::Milliseconds}};
+    report.counters.push_back(
+        {"sources_kept", "Sources kept",
+         "Lights, emissive materials and skies whose light is known alone: a change of their "
+         "colour "
+         "or strength needs no bounce. They are found while nothing else is to be done",
+         double(r.sourcesKept)});
     if (r.bytes > 0)
         report.counters.push_back({"light_bytes", "Memory of light",
                                    "Beside the bake: radiosity of surfels and clusters, harmonics "
