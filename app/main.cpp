@@ -17,6 +17,7 @@ static int runLimn(int argc, char** argv) {
     addExplainCommand(program);
     addExportCommand(program);
     addInfoCommand(program);
+    addLintCommand(program);
     addReferenceCommand(program);
     addRenderCommand(program);
     const Command::Chosen chosen = program.parse(argc, argv);

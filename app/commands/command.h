@@ -16,6 +16,7 @@ void addRenderCommand(Command& program);
 void addReferenceCommand(Command& program);
 void addCompareCommand(Command& program);
 void addInfoCommand(Command& program);
+void addLintCommand(Command& program);
 void addExplainCommand(Command& program);
 void addExportCommand(Command& program);
 void addEditCommand(Command& program); ///< adds nothing in a program without Vulkan

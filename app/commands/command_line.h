@@ -17,8 +17,9 @@ class Option;
 
 namespace limn {
 
-/// Exit status of the process: 0 done, 1 failed (one line on stderr), 2 bad usage.
-enum class Exit : int { Done = 0, Failed = 1, Usage = 2 };
+/// Exit status of the process: 0 done, 1 failed (one line on stderr), 2 bad usage, 3 done, with
+/// findings that `limn lint` is to fail on.
+enum class Exit : int { Done = 0, Failed = 1, Usage = 2, Findings = 3 };
 
 /// Describes what is wrong with the text of an argument; empty: nothing.
 using ArgumentCheck = std::function<std::string(const std::string& text)>;

@@ -67,7 +67,7 @@ may_include() {
 tiers_of_rooms='
 Program: app editor_ui
 Vulkan device: device_techniques gpu illuminance_gpu light_skin_gpu lpv_gpu photon_lattices_gpu probes_gpu radiance_volumes_gpu render rsm_gpu sparse_probes_gpu
-Pictures, measures and exports: export final_lightmap illuminance_measure illuminance_stress measure picture reference
+Pictures, measures and exports: export final_lightmap illuminance_measure illuminance_stress lint measure picture reference
 Techniques of bounced light: ambient illuminance illuminance_bake illuminance_format illuminance_overlay illuminance_relight illuminance_transport light_skin lpv photon_lattices probes radiance_volumes sparse_probes techniques
 Light in a scene: field lattice lighting lightmap lightmap_layout rsm shading trace
 Scenes and ground: core files gallery gltf json math overlay runtime scene stages
