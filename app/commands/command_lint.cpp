@@ -49,7 +49,7 @@ void printRules(bool json) {
 
 void print(std::span<const Finding> findings) {
     for (const Finding& f : findings) {
-        fmt::print("{:<8} {:<20} {}\n", kSeverityNames[std::size_t(f.rule->severity)], f.rule->name,
+        fmt::print("{:<8} {:<20} {}\n", kSeverityNames[std::size_t(f.severity)], f.rule->name,
                    f.path.empty() ? "the scene" : f.path);
         fmt::print("         {}\n         {}\n", f.problem, f.advice);
         if (f.place)
@@ -63,7 +63,7 @@ void print(std::span<const Finding> findings) {
 bool failsOn(std::span<const Finding> findings, std::string_view name) {
     const auto lowest = Severity(std::ranges::find(kSeverityNames, name) - kSeverityNames.begin());
     return std::ranges::any_of(findings,
-                               [&](const Finding& f) { return f.rule->severity >= lowest; });
+                               [&](const Finding& f) { return f.severity >= lowest; });
 }
 
 Exit runLint(const LintCommand& command) {

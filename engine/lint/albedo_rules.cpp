@@ -2,9 +2,11 @@
 #include "engine/lint/albedo_rules.h"
 
 #include "engine/scene/mesh/triangle_geometry.h"
+#include "engine/scene/surface/dielectric.h"
 #include "engine/scene/surface/specular.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -55,6 +57,14 @@ MeanSurface meanSurface(const Scene& scene, const MeshUse& use) {
     return mean;
 }
 
+/// Whether it reflects as a metal does, by another share than that of a dielectric straight on.
+bool isMetal(const Material& material, const MeanSurface& mean) {
+    constexpr float kRounding = 0.002f;
+    const float reflection = largest(mean.reflection);
+    return reflection > kBlackAlbedo &&
+           std::abs(reflection - dielectricF0(material.ior)) > kRounding;
+}
+
 Finding albedoFinding(const LintScene& in, const LintRule& rule, const MeshUse& use,
                       const char* what, const char* advice) {
     const Instance& instance = in.scene.instances[use.instance];
@@ -70,15 +80,13 @@ Finding albedoFinding(const LintScene& in, const LintRule& rule, const MeshUse& 
 } // namespace
 
 std::vector<Finding> albedoFindings(const LintScene& in) {
-    // A dielectric reflects 4 % straight on, and metals half of the light or more.
-    constexpr float kMetal = 0.1f;
     UsesByMaterial black, bright;
     for (const MeshUse& use : meshUses(in.scene)) {
         const Material& material = in.scene.materialOf(in.scene.instances[use.instance]);
         if (material.emission != glm::vec3(0) || material.transmission > 0 || !(use.area > 0))
             continue;
         const MeanSurface mean = meanSurface(in.scene, use);
-        if (mean.any && largest(mean.albedo) < kBlackAlbedo && largest(mean.reflection) < kMetal)
+        if (mean.any && largest(mean.albedo) < kBlackAlbedo && !isMetal(material, mean))
             black.add(in.scene, use);
         if (largest(mean.albedo) > kBrightAlbedo)
             bright.add(in.scene, use);

@@ -22,17 +22,18 @@ inline constexpr std::array<std::string_view, 3> kSeverityNames = {"note", "warn
 /// What is looked for in a scene.
 struct LintRule {
     std::string_view name; ///< kebab-case, as in reports and docs/lint.md
-    Severity severity;     ///< of its findings
+    Severity severity;     ///< of its findings, at worst
     std::string_view summary;
 };
 
 /// One fault of a scene.
 struct Finding {
     const LintRule* rule = nullptr; ///< of lintRules(), never null in a report
-    ObjectId object = 0;            ///< what it is about; 0: the scene as a whole
-    std::string path;               ///< objectPath() of the object
-    std::string problem;            ///< one sentence: what is wrong
-    std::string advice;             ///< one sentence: what to do
+    Severity severity = Severity::Warning;
+    ObjectId object = 0; ///< what it is about; 0: the scene as a whole
+    std::string path;    ///< objectPath() of the object
+    std::string problem; ///< one sentence: what is wrong
+    std::string advice;  ///< one sentence: what to do
     /// Where to look, in the file's coordinates [m].
     std::optional<glm::dvec3> place = std::nullopt;
 };

@@ -16,15 +16,15 @@ static Json placeJson(const Finding& finding) {
     return Json::array({finding.place->x, finding.place->y, finding.place->z});
 }
 
-static std::string_view severityName(const LintRule& rule) {
-    return kSeverityNames[std::size_t(rule.severity)];
+static std::string_view severityName(Severity severity) {
+    return kSeverityNames[std::size_t(severity)];
 }
 
 Json findingsJson(std::span<const Finding> findings) {
     Json all = Json::array();
     for (const Finding& f : findings)
         all.push_back({{"rule", f.rule->name},
-                       {"severity", severityName(*f.rule)},
+                       {"severity", severityName(f.severity)},
                        {"object", f.object},
                        {"path", f.path},
                        {"problem", f.problem},
@@ -51,7 +51,7 @@ static std::string uriOf(const std::string& path) {
 static Json ruleJson(const LintRule& rule) {
     return {{"id", rule.name},
             {"shortDescription", {{"text", rule.summary}}},
-            {"defaultConfiguration", {{"level", severityName(rule)}}}};
+            {"defaultConfiguration", {{"level", severityName(rule.severity)}}}};
 }
 
 static Json resultJson(const Finding& f, const std::string& uri) {
@@ -62,7 +62,7 @@ static Json resultJson(const Finding& f, const std::string& uri) {
             Json::array({Json{{"fullyQualifiedName", f.path}, {"kind", "object"}}});
     Json result = {{"ruleId", f.rule->name},
                    {"ruleIndex", std::ranges::find(rules, f.rule) - rules.begin()},
-                   {"level", severityName(*f.rule)},
+                   {"level", severityName(f.severity)},
                    {"message", {{"text", f.problem + " " + f.advice}}},
                    {"locations", Json::array({location})}};
     if (f.place)

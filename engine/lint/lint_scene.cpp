@@ -39,13 +39,23 @@ std::string objectPath(const Document& document, ObjectId id) {
 
 Finding findingAbout(const LintScene& in, const LintRule& rule, ObjectId object,
                      std::string problem, std::string advice) {
-    return {&rule, object, objectPath(in.document, object), std::move(problem), std::move(advice)};
+    return {&rule,
+            rule.severity,
+            object,
+            objectPath(in.document, object),
+            std::move(problem),
+            std::move(advice)};
 }
 
 glm::dvec3 middleInFile(const Scene& scene, const Instance& instance) {
     const Bounds bounds = boundsOf(scene.meshOf(instance).positions);
     const glm::vec3 middle = isEmpty(bounds) ? glm::vec3(0) : bounds.centre();
     return toFile(scene.origin, glm::vec3(instance.toWorld * glm::vec4(middle, 1)));
+}
+
+std::string partText(const Scene& scene, const Instance& instance) {
+    const auto ofNode = std::ranges::count(scene.instances, instance.node, &Instance::node);
+    return ofNode > 1 ? fmt::format("Material \"{}\"", scene.materialOf(instance).name) : "It";
 }
 
 std::vector<MeshUse> meshUses(const Scene& scene) {
@@ -81,6 +91,20 @@ void UsesByMaterial::add(const Scene& scene, const MeshUse& use) {
 
 std::string othersText(std::size_t count) {
     return count > 1 ? fmt::format(" ({} objects)", count) : "";
+}
+
+bool isOpen(const TraceScene& trace, glm::vec3 p, glm::vec3 normal) {
+    constexpr std::uint32_t kRays = 32;
+    const bool around = normal == glm::vec3(0);
+    const DirectionSet directions(kRays, around, 1);
+    const glm::mat3 basis = basisAround(around ? glm::vec3(0, 0, 1) : normal);
+    std::uint32_t backs = 0;
+    for (std::uint32_t k = 0; k < kRays; ++k) {
+        const SurfaceHit hit = trace.closestSurface({p, basis * directions[k]});
+        backs += hit && !hit.frontFace &&
+                 !isTwoSided(trace.scene().materialOf(trace.scene().instances[hit.instance]));
+    }
+    return backs < kRays * 7 / 16;
 }
 
 std::vector<LintPoint> spreadPoints(const LintScene& in, std::size_t count) {

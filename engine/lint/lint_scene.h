@@ -34,6 +34,9 @@ Finding findingAbout(const LintScene& in, const LintRule& rule, ObjectId object,
 /// Middle of an instance's bounding box in the file's coordinates [m].
 glm::dvec3 middleInFile(const Scene& scene, const Instance& instance);
 
+/// "Material "Oak"", for a sentence about an instance of a node with several meshes; else "It".
+std::string partText(const Scene& scene, const Instance& instance);
+
 /// Instances that show one mesh in one material.
 struct MeshUse {
     std::uint32_t instance = 0; ///< the one of the largest area
@@ -68,5 +71,10 @@ struct LintPoint {
 /// At most `count` points spread over all surfaces by area, of two-sided ones on both sides in
 /// turn; sheets of glass have none. The same for the same scene.
 std::vector<LintPoint> spreadPoints(const LintScene& in, std::size_t count);
+
+/// Whether light gets to a place: less than 7/16 of what it sees are backs of one-sided surfaces.
+/// Within a solid it would be all, and behind a plane half. `p` is clear of surfaces; a `normal` of
+/// 0 looks all around.
+bool isOpen(const TraceScene& trace, glm::vec3 p, glm::vec3 normal);
 
 } // namespace limn

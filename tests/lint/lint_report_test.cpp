@@ -10,8 +10,9 @@ namespace limn::lint_test {
 namespace {
 
 std::vector<Finding> someFindings() {
-    return {{lintRules()[0], 3, "House/Wall", "It is wrong.", "Mend it.", glm::dvec3(1, 2, 3)},
-            {lintRules()[1], 0, "", "All is wrong.", "Mend all."}};
+    return {{lintRules()[0], Severity::Warning, 3, "House/Wall", "It is wrong.", "Mend it.",
+             glm::dvec3(1, 2, 3)},
+            {lintRules()[1], Severity::Note, 0, "", "All is wrong.", "Mend all."}};
 }
 
 TEST(LintRules, HaveNamesOfTheirOwnInKebabCase) {
