@@ -6,6 +6,7 @@
 #include "app/program_version.h"
 
 #include "engine/core/replace_file.h"
+#include "engine/lint/bake_forecast.h"
 #include "engine/lint/lint.h"
 #include "engine/lint/lint_report.h"
 
@@ -22,7 +23,7 @@ struct LintCommand {
     SceneOptions scene;
     std::string sarif;
     std::string failOn = "warning";
-    bool json = false, rules = false;
+    bool json = false, rules = false, noSeconds = false;
 };
 
 Json countsJson(std::span<const Finding> findings) {
@@ -60,10 +61,48 @@ void print(std::span<const Finding> findings) {
     fmt::print("{} errors, {} warnings, {} notes\n", counts[2], counts[1], counts[0]);
 }
 
+/// What a bake with the scene's settings will take. Seconds are empty where they are not known.
+struct Forecast {
+    Prediction prediction;
+    StageSeconds seconds;
+};
+
+Forecast forecastOf(const LintCommand& command, const TraceScene& trace) {
+    Forecast forecast;
+    if (trace.scene().instances.empty())
+        return forecast;
+    forecast.prediction = forecastBake(trace.scene());
+    const MemoryBudget& memory = command.scene.import.memory;
+    if (command.noSeconds || forecast.prediction.working > memory.maxBytes)
+        return forecast;
+    if (auto seconds = forecastSeconds(trace, memory, progressOnStderr()))
+        forecast.seconds = std::move(*seconds);
+    endProgressLine();
+    return forecast;
+}
+
+Json forecastJson(const Forecast& forecast) {
+    Json json = {{"caches", forecast.prediction.caches},
+                 {"file_bytes", forecast.prediction.file},
+                 {"working_bytes", forecast.prediction.working},
+                 {"seconds", nullptr}};
+    if (!forecast.seconds.empty())
+        json["seconds"] = totalOf(forecast.seconds);
+    return json;
+}
+
+void print(const Forecast& forecast) {
+    const Prediction& p = forecast.prediction;
+    fmt::print("A bake: about {} caches, a file of {}, {} of memory beside the scene", p.caches,
+               bytesText(p.file), bytesText(p.working));
+    if (!forecast.seconds.empty())
+        fmt::print(", {:.3g} s", totalOf(forecast.seconds));
+    fmt::print("\n");
+}
+
 bool failsOn(std::span<const Finding> findings, std::string_view name) {
     const auto lowest = Severity(std::ranges::find(kSeverityNames, name) - kSeverityNames.begin());
-    return std::ranges::any_of(findings,
-                               [&](const Finding& f) { return f.severity >= lowest; });
+    return std::ranges::any_of(findings, [&](const Finding& f) { return f.severity >= lowest; });
 }
 
 Exit runLint(const LintCommand& command) {
@@ -81,8 +120,9 @@ Exit runLint(const LintCommand& command) {
         return failed(imported.error().message);
     const Scene scene = flatten(imported->document, imported->assets, command.scene.seconds);
     const TraceScene trace(scene);
-    const auto findings =
-        lintScene({imported->document, scene, trace, imported->repairs}, progressOnStderr());
+    const auto findings = lintScene(
+        {imported->document, scene, trace, imported->repairs, command.scene.import.memory},
+        progressOnStderr());
     endProgressLine();
     if (!findings)
         return failed("cancelled");
@@ -91,13 +131,17 @@ Exit runLint(const LintCommand& command) {
         if (const Result<void> written = replaceFile(command.sarif, log.dump(2) + "\n"); !written)
             return failed(written.error().message);
     }
+    const Forecast forecast = forecastOf(command, trace);
     if (command.json)
         fmt::print("{}\n", Json{{"scene", imported->document.scenePath},
                                 {"findings", findingsJson(*findings)},
-                                {"counts", countsJson(*findings)}}
+                                {"counts", countsJson(*findings)},
+                                {"bake", forecastJson(forecast)}}
                                .dump());
-    else
+    else {
         print(*findings);
+        print(forecast);
+    }
     return failsOn(*findings, command.failOn) ? Exit::Findings : Exit::Done;
 }
 
@@ -115,6 +159,8 @@ void addLintCommand(Command& app) {
     sub.option("--fail-on", command->failOn,
                "Least severity of a finding that makes the exit code 3; default: warning")
         .oneOf(namesIn(kSeverityNames));
+    sub.flag("--no-seconds", command->noSeconds,
+             "Make no trial bake, from which the seconds of a bake are known");
     sub.flag("--rules", command->rules, "List the rules instead");
     sub.onRun([command] { return runLint(*command); },
               [command]() -> std::string {

@@ -3,6 +3,7 @@
 
 #include "engine/lint/albedo_rules.h"
 #include "engine/lint/back_rules.h"
+#include "engine/lint/bake_forecast.h"
 #include "engine/lint/light_rules.h"
 #include "engine/lint/size_rules.h"
 #include "engine/lint/uv_rules.h"
@@ -16,11 +17,11 @@ namespace limn {
 
 std::span<const LintRule* const> lintRules() {
     static const LintRule* const kRules[] = {
-        &kMissingUvRule,   &kDegenerateUvRule, &kLightmapUvRule,          &kThinWallRule,
-        &kBackFacesRule,   &kBlackAlbedoRule,  &kBrightAlbedoRule,        &kUnseenLightRule,
-        &kDimLightRule,    &kStrongLightRule,  &kZeroLightRule,           &kDarkSceneRule,
-        &kTinyMeshRule,    &kSceneSizeRule,    &kDegenerateTrianglesRule, &kNonFiniteRule,
-        &kRepairedFileRule};
+        &kBakeMemoryRule,          &kManyTexelsRule,  &kMissingUvRule,   &kDegenerateUvRule,
+        &kLightmapUvRule,          &kThinWallRule,    &kBackFacesRule,   &kBlackAlbedoRule,
+        &kBrightAlbedoRule,        &kUnseenLightRule, &kDimLightRule,    &kStrongLightRule,
+        &kZeroLightRule,           &kDarkSceneRule,   &kTinyMeshRule,    &kSceneSizeRule,
+        &kDegenerateTrianglesRule, &kNonFiniteRule,   &kRepairedFileRule};
     return kRules;
 }
 
@@ -48,6 +49,7 @@ std::optional<std::vector<Finding>> lintScene(const LintScene& in, const Progres
     progress.at("materials", 0);
     add(albedoFindings(in));
     add(sizeFindings(in));
+    add(forecastFindings(in));
     add(uvFindings(in, progress));
     if (!progress.cancelled())
         add(backFindings(in, progress));

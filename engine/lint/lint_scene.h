@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "engine/core/memory_budget.h"
 #include "engine/core/progress.h"
 #include "engine/lint/finding.h"
 #include "engine/scene/scene.h"
@@ -21,6 +22,7 @@ struct LintScene {
     const Scene& scene; ///< flatten() of the document
     const TraceScene& trace;
     std::span<const std::string> repairs; ///< ImportedScene::repairs
+    MemoryBudget memory = {};             ///< of a bake
 };
 
 /// Names of an object and of the groups that hold it, "House/Wall"; objects without a name are
