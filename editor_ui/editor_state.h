@@ -20,6 +20,7 @@
 #include "editor_ui/view/compare_state.h"
 #include "editor_ui/view/explain_state.h"
 #include "editor_ui/view/gizmo_drag.h"
+#include "editor_ui/view/lint_state.h"
 #include "editor_ui/view/overlay_state.h"
 #include "editor_ui/view/placement.h"
 #include "engine/scene/animation.h"
@@ -88,6 +89,7 @@ struct EditorState {
     CompareState compare;
     std::set<ObjectId> solo; ///< lights and the sky that alone are shown; empty: all. See solo.h
     ExplainState explain;
+    LintState lint;
     LayoutState layout; ///< of the current workspace
     Workspace workspace = Workspace::Light;
     WorkspaceStates workspaces = defaultWorkspaces(); ///< those of the others; see workspacesOf()

@@ -21,6 +21,8 @@ struct Request {
         BakeToError,   ///< EditorState::bakeError
         BakeSelection, ///< EditorState::selection alone gets all of its texels
         CancelBake,
+        Lint, ///< checks the scene
+        CancelLint,
         Export,
         SavePictures, ///< the viewport's and the reference's
         CancelExport,

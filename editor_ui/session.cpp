@@ -63,7 +63,7 @@ Session::Session(SessionOptions options)
       m_bakeJob(m_options.wake, {.folder = m_options.bakeFolder}, m_options.import.memory),
       m_relightJob(m_options.wake), m_exportJob(m_options.wake), m_referenceJob(m_options.wake),
       m_comparisonJob(m_options.wake), m_other(m_options.wake), m_explainJob(m_options.wake),
-      m_recovery(m_options.recoveryFolder),
+      m_lintJob(m_options.wake), m_recovery(m_options.recoveryFolder),
       m_settings(m_options.settingsFile, settingsIn(m_options.settingsFile)),
       m_followed(std::make_shared<const Document>()) {
     state.assets = std::make_shared<const Assets>();
@@ -165,6 +165,12 @@ void Session::handle(const Request& request) {
         m_notBaked = m_relit.inputHash;
         m_bakeJob.cancel();
         break;
+    case Request::Kind::Lint:
+        followLint(true);
+        break;
+    case Request::Kind::CancelLint:
+        m_lintJob.cancel();
+        break;
     case Request::Kind::Export:
         startExport(request.path);
         break;
@@ -222,6 +228,8 @@ void Session::show(OpenedFile file) {
     if (const std::string defect = choiceDefect(singleton<TechniqueChoice>(state.document));
         !defect.empty())
         log(LogLine::Level::Warning, file.what + ": " + defect + "; there is no bounced light");
+    m_lintJob.cancel(); // it checks what was open before
+    state.lint.repairs = file.imported.repairs;
     for (std::string& repair : file.imported.repairs)
         log(LogLine::Level::Warning, std::move(repair));
     const bool hasBake = file.baked.bake != nullptr;
@@ -542,6 +550,7 @@ void Session::update() {
     followReference();
     followOtherTechnique();
     showExplanation();
+    followLint(false);
     m_settings.keep(settingsOf(state));
 }
 
@@ -555,6 +564,7 @@ WorkSet Session::working() const {
     set[std::size_t(Work::Reference)] = state.compare.reference.running || m_comparisonJob.busy();
     set[std::size_t(Work::Save)] = m_files.busy() && !opening;
     set[std::size_t(Work::Explain)] = m_explainJob.busy();
+    set[std::size_t(Work::Lint)] = m_lintJob.busy();
     set[std::size_t(Work::Export)] = m_exportJob.busy();
     return set;
 }

@@ -8,6 +8,7 @@
 #include "editor_ui/jobs/explain_job.h"
 #include "editor_ui/jobs/export_job.h"
 #include "editor_ui/jobs/file_job.h"
+#include "editor_ui/jobs/lint_job.h"
 #include "editor_ui/jobs/other_technique.h"
 #include "editor_ui/jobs/recovery_job.h"
 #include "editor_ui/jobs/reference_job.h"
@@ -55,15 +56,12 @@ public:
     const std::shared_ptr<const LightSnapshot>& lit() const { return m_relit.lit; }
 
     /// Sets the newest picture in full size, which the reference is compared with.
-    void setPicture(std::shared_ptr<const LinearPicture> picture) {
-        m_picture = std::move(picture);
-    }
+    void setPicture(std::shared_ptr<const LinearPicture> picture);
     /// What state.compare asks for of the reference; a null image: nothing, or not yet.
     const ComparedPicture& compared() const { return m_beside; }
 
     bool wantsQuit() const { return m_quit; }
-    /// What is being opened, saved, baked, exported, explained, relit or path-traced, results that
-    /// are not taken yet included.
+    /// What goes on beside the window, results that are not taken yet included.
     WorkSet working() const;
     bool idle() const; ///< true if none of this goes on
     /// Seconds of baking since the start, finished, cancelled or running.
@@ -92,6 +90,7 @@ private:
     void followReference();
     void followOtherTechnique();
     void showExplanation();
+    void followLint(bool start);
     void followDocument();
     void followTime();
     void showStatus();
@@ -121,7 +120,8 @@ private:
     OtherTechnique m_other;
     ExplainJob m_explainJob;
     std::optional<ExplainOrder> m_explained; ///< the newest order
-    double m_shownSeconds = 0;               ///< time of animated textures in m_scene
+    LintJob m_lintJob;
+    double m_shownSeconds = 0; ///< time of animated textures in m_scene
     RecoveryJob m_recovery;
     SettingsJob m_settings;
     std::optional<Recovery> m_offered;          ///< that of state.recovery, or being opened

@@ -7,6 +7,10 @@
 
 namespace limn {
 
+void Session::setPicture(std::shared_ptr<const LinearPicture> picture) {
+    m_picture = std::move(picture);
+}
+
 void Session::takeSky() {
     auto read = m_files.takeSky();
     if (!read)

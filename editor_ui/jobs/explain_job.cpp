@@ -56,15 +56,15 @@ ExplainJob::Explained ExplainJob::explain(const ExplainOrder& order) {
         m_litFor = order;
         m_litView = view;
     }
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point start = Clock::now();
+    const auto start = std::chrono::steady_clock::now();
     auto explained = std::make_shared<ExplainedPixel>();
     explained->explanation = explainPixel(*m_lit, order.question);
     explained->light = order.question.light;
     explained->lights = order.lights;
     for (const Instance& instance : order.scene->instances)
         explained->nodes.push_back(instance.node);
-    explained->ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    explained->ms =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return explained;
 }
 

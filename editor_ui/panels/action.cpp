@@ -255,6 +255,11 @@ bool lightsShown(const EditorState& s) {
 void explainLight(EditorState& s) {
     s.explain.bringUp = true;
 }
+void checkScene(EditorState& s) {
+    s.layout.bottomOpen = true;
+    s.layout.tab = BottomTab::Check;
+    s.requests.push_back({Request::Kind::Lint});
+}
 void toggleTheme(EditorState& s) {
     s.lightTheme = !s.lightTheme;
 }
@@ -434,6 +439,7 @@ std::vector<Action> fixedActions() {
     {"bake.error", "Bake until the error holds", Menu::Bake, kNoKey, kNoKey, false, canBake, bakeToErrorAction},
     {"bake.selection", "Bake the selection only", Menu::Bake, kNoKey, kNoKey, false, canBakeSelection, bakeSelection},
     {"bake.cancel", "Cancel the bake", Menu::Bake, kNoKey, kNoKey, false, baking, cancelBake},
+    {"bake.check", "Check the scene", Menu::Bake, kNoKey, kNoKey, true, always, checkScene},
     {"bake.automatic", "Bake when needed", Menu::Bake, kNoKey, kNoKey, true, always, toggleAutoBake, autoBakes},
     {"help.keys", "Keys and mouse", Menu::Help, plain(key::kF1), kNoKey, false, always, askHelp},
     {"help.reset_keys", "Reset all keys", Menu::Help, kNoKey, kNoKey, false, hasOwnKeys, resetKeys},

@@ -5,6 +5,7 @@
 #include "editor_ui/panels/error_panel.h"
 #include "editor_ui/panels/explain_panel.h"
 #include "editor_ui/panels/field.h"
+#include "editor_ui/panels/lint_panel.h"
 #include "editor_ui/panels/mixer_panel.h"
 #include "editor_ui/panels/statistics_panel.h"
 #include "editor_ui/panels/theme.h"
@@ -28,6 +29,7 @@ struct TabText {
 constexpr TabText kTabs[] = {
     {"Lights", "Every light with its switch, colour, strength and share of a pixel"},
     {"Explain", "Where the light of a clicked pixel comes from"},
+    {"Check", "What in the scene makes its light go wrong"},
     {"Profile", "What updates of light, the picture and the window's frames took"},
     {"Memory", "What the bake holds, its counts and its stages"},
     {"Error", "The error against the reference since the last edit"},
@@ -74,6 +76,9 @@ static void tabContents(EditorState& state) {
     case BottomTab::Explain:
         state.explain.shown = state.explain.mutes = true;
         explainPanel(state);
+        break;
+    case BottomTab::Check:
+        lintPanel(state);
         break;
     case BottomTab::Profile:
         profilePanel(state);

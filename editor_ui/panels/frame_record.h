@@ -8,11 +8,11 @@
 namespace limn {
 
 /// Work beside the window, of which FrameRecord tells frames apart.
-enum class Work { Open, Bake, Relight, Reference, Save, Explain, Export };
+enum class Work { Open, Bake, Relight, Reference, Save, Explain, Lint, Export };
 
 /// As statistics and --stats-json name them.
 inline constexpr std::array kWorkNames{"open", "bake",    "relight", "reference",
-                                       "save", "explain", "export"};
+                                       "save", "explain", "lint",    "export"};
 
 using WorkSet = std::bitset<kWorkNames.size()>; ///< bit number Work: that work is going on
 

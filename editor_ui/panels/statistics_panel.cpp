@@ -189,6 +189,7 @@ static constexpr WorkLabel kWorkLabels[] = {
     {Work::Reference, "  reference", "The longest frame while the reference was path-traced last"},
     {Work::Save, "  saving", "The longest frame while a file was written last"},
     {Work::Explain, "  explaining", "The longest frame while a pixel was explained last"},
+    {Work::Lint, "  checking", "The longest frame while the scene was checked last"},
     {Work::Export, "  exporting", "The longest frame while light was exported last"},
 };
 static_assert(std::size(kWorkLabels) == kWorkNames.size());

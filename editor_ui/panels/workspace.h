@@ -13,10 +13,10 @@ namespace limn {
 struct EditorState;
 
 /// Tabs of the bottom panel, in their order.
-enum class BottomTab : std::uint8_t { Lights, Explain, Profile, Memory, Error, Log };
+enum class BottomTab : std::uint8_t { Lights, Explain, Check, Profile, Memory, Error, Log };
 
 /// As the file of settings names them.
-inline constexpr std::array kBottomTabNames{"lights", "explain", "profile",
+inline constexpr std::array kBottomTabNames{"lights", "explain", "check", "profile",
                                             "memory", "error",   "log"};
 
 /// Sizes of the fixed panels as the user wants them, at 96 dpi [px]. A small window shows less.

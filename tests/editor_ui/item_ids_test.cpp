@@ -3,6 +3,7 @@
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/document/object_rules.h"
 #include "editor_ui/panels/action.h"
+#include "engine/lint/lint.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/editor_ui/baked_editor.h"
 #include "tests/editor_ui/drawn_items.h"
@@ -155,6 +156,11 @@ EditorState crowdedEditor(const TemporaryFolder& folder) {
     for (const auto& [id, object] : state.document.objects)
         if (std::holds_alternative<Light>(object))
             pixel.lights.push_back(id);
+    const auto rules = lintRules();
+    state.lint.findings = std::make_shared<const std::vector<Finding>>(
+        std::vector<Finding>{{rules[0], Severity::Note, pixel.lights[0], "Lamp", "Twice.", "No."},
+                             {rules[0], Severity::Error, pixel.lights[0], "Lamp", "Twice.", "No."},
+                             {rules[1], Severity::Warning, 0, "", "Twice.", "No."}});
     state.explain.muted = {pixel.lights[0]};
     state.explain.result = std::make_shared<const ExplainedPixel>(std::move(pixel));
     state.explain.pick.emplace();
@@ -231,6 +237,10 @@ std::vector<EditorState> withEveryPanel(const EditorState& crowded) {
     add([](EditorState& s) {
         s.errors.points.clear();
         s.layout.tab = BottomTab::Error;
+    });
+    add([](EditorState& s) {
+        s.lint.running = true;
+        s.layout.tab = BottomTab::Check;
     });
     add([](EditorState& s) { s.loading = "atrium"; });
     add([](EditorState& s) {
