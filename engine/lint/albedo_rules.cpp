@@ -14,7 +14,7 @@ namespace limn {
 
 const LintRule kBlackAlbedoRule = {
     "black-albedo", Severity::Warning,
-    "A surface that neither emits nor is metal or glass reflects less than 1 % of the light"};
+    "A surface that neither emits nor is metal or glass reflects less than 0.5 % of the light"};
 const LintRule kBrightAlbedoRule = {"bright-albedo", Severity::Warning,
                                     "A surface reflects more than 95 % of a colour of the light"};
 
@@ -95,7 +95,7 @@ std::vector<Finding> albedoFindings(const LintScene& in) {
     for (const auto& [material, use] : black.uses())
         findings.push_back(albedoFinding(
             in, kBlackAlbedoRule, use,
-            "less than 1 % of the light, so that no light bounces off it",
+            "less than 0.5 % of the light, so that no light bounces off it",
             "Give it an albedo of 0.03 or more, as coal and black paint have, or a texture that "
             "can be read."));
     for (const auto& [material, use] : bright.uses())

@@ -34,8 +34,10 @@ TEST(PlantedFaults, NoneAreFoundInACleanRoom) {
 
 TEST(PlantedFaults, BlackAlbedo) {
     CleanRoom room;
-    room.material(2).baseColor = {0, 0, 0, 1};
+    room.material(2).baseColor = {0.004f, 0.004f, 0.004f, 1};
     expectOnly(room, "black-albedo", room.table);
+    room.material(2).baseColor = {0.01f, 0.01f, 0.01f, 1}; // velvet
+    EXPECT_EQ(textOf(room.lint()), "");
 }
 
 TEST(PlantedFaults, BrightAlbedo) {
