@@ -89,7 +89,7 @@ TEST_F(FewBounces, ToleranceDecidesHowManyOfManyThereAre) {
         Relighter coarse(made);
         const RelightStats stats = coarse.relight(scene, trace, most);
         EXPECT_TRUE(stats.converged);
-        EXPECT_LE(stats.bounces, bounces) << tolerance;
+        EXPECT_LT(stats.bounces, bounces) << tolerance;
         bounces = stats.bounces;
         double missing = 0, all = 0;
         for (std::size_t i = 0; i < made->surfels.size(); ++i) {
@@ -100,7 +100,6 @@ TEST_F(FewBounces, ToleranceDecidesHowManyOfManyThereAre) {
         EXPECT_LT(missing / all, double(tolerance) / 100);
         EXPECT_GT(missing, 0);
     }
-    EXPECT_LT(bounces, exact.bounces);
     EXPECT_TRUE(relighter.relight(scene, trace, most).converged) << "more tolerance asks for less";
     scene.relight.tolerance = 0.001f;
     EXPECT_FALSE(relighter.relight(scene, trace, most).skipped) << "a change of its own";
