@@ -22,8 +22,9 @@ bool SourceSolver::solve(Relighter& relighter, const Scene& scene, const TraceSc
     const RelightStats stats = m_alone->relight(m_scene, trace, kBounces, progress);
     if (!stats.converged || progress.cancelled())
         return true;
-    if (!stats.grows)
-        relighter.keepSource(*m_source, m_alone->cacheSh());
+    if (stats.grows)
+        return false; // it would be wanted again and again
+    relighter.keepSource(*m_source, m_alone->cacheSh());
     m_source.reset();
     return true;
 }

@@ -15,7 +15,8 @@ public:
     explicit SourceSolver(std::shared_ptr<const Bake> bake) : m_bake(std::move(bake)) {}
 
     /// Goes on with the source that `relighter` wants next. `unread`: as for lightUnreadGrid().
-    /// Returns false if it wants none. A cancelled call loses nothing.
+    /// Returns false if it wants none, or if the light of that source grows without end. A
+    /// cancelled call loses nothing.
     bool solve(Relighter& relighter, const Scene& scene, const TraceScene& trace, bool unread,
                const Progress& progress);
 
