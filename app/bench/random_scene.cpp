@@ -2,6 +2,7 @@
 #include "app/bench/random_scene.h"
 
 #include "engine/math/sampling.h"
+#include "engine/scene/mesh/triangle_geometry.h"
 
 #include <cmath>
 #include <limits>
@@ -15,12 +16,6 @@ namespace {
 
 constexpr std::size_t kMaxLights = 8;
 constexpr float kPi = std::numbers::pi_v<float>;
-
-Bounds worldBounds(const Scene& scene, const Instance& instance) {
-    return boundsOf(scene.meshOf(instance).positions | std::views::transform([&](glm::vec3 p) {
-                        return glm::vec3(instance.toWorld * glm::vec4(p, 1));
-                    }));
-}
 
 } // namespace
 

@@ -37,7 +37,7 @@ Json countsJson(std::span<const Finding> findings) {
 void printRules(bool json) {
     Json all = Json::array();
     for (const LintRule* rule : lintRules()) {
-        const std::string_view severity = kSeverityNames[std::size_t(rule->severity)];
+        const std::string_view severity = severityName(rule->severity);
         if (json)
             all.push_back(
                 {{"rule", rule->name}, {"severity", severity}, {"summary", rule->summary}});
@@ -50,7 +50,7 @@ void printRules(bool json) {
 
 void print(std::span<const Finding> findings) {
     for (const Finding& f : findings) {
-        fmt::print("{:<8} {:<20} {}\n", kSeverityNames[std::size_t(f.severity)], f.rule->name,
+        fmt::print("{:<8} {:<20} {}\n", severityName(f.severity), f.rule->name,
                    f.path.empty() ? "the scene" : f.path);
         fmt::print("         {}\n         {}\n", f.problem, f.advice);
         if (f.place)

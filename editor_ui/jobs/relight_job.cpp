@@ -39,7 +39,7 @@ struct RelightJob::Worker {
     std::optional<Scene> relit;          ///< what is lit where the bake is older than the scene
 
     bool hasWork() const { return lighting && scene && !driver.done(); }
-    /// What waits for other work, and shows nothing.
+    /// Whether there is work for idle time, which changes no light.
     bool hasIdleWork() const { return lighting && scene && driver.canSolve(); }
     bool lights() const { return lighting && driver.lighting(); }
     bool lightsView() const { return lights() && driver.lighting()->isOfView(); }

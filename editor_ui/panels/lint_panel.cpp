@@ -50,7 +50,7 @@ void checkRow(EditorState& state) {
 }
 
 void severityCell(Severity severity) {
-    const char* name = kSeverityNames[std::size_t(severity)].data();
+    const char* name = severityName(severity).data();
     switch (severity) {
     case Severity::Note:
         ImGui::TextDisabled("%s", name);

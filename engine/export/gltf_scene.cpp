@@ -2,6 +2,7 @@
 #include "engine/export/gltf_scene.h"
 
 #include "engine/core/parallel.h"
+#include "engine/core/percent_encoding.h"
 #include "engine/export/gltf_buffer.h"
 #include "engine/export/gltf_light_json.h"
 #include "engine/export/gltf_material_json.h"
@@ -10,7 +11,6 @@
 #include "engine/scene/light/ies_file.h"
 
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -330,7 +330,7 @@ Json packedImages(GltfScene& gltf, const std::vector<ExportFile>& images) {
 Json namedImages(const std::vector<ExportFile>& images) {
     Json list = Json::array();
     for (const ExportFile& image : images)
-        list.push_back({{"uri", uriOf(image.name)}});
+        list.push_back({{"uri", percentEncoded(image.name)}});
     return list;
 }
 
@@ -383,7 +383,7 @@ Json documentJson(GltfScene& gltf, const std::string& bufferName, Json imageList
     addArray(json, "images", imageList);
     Json buffer = {{"byteLength", gltf.buffer.bytes.size()}};
     if (!bufferName.empty())
-        buffer["uri"] = uriOf(bufferName);
+        buffer["uri"] = percentEncoded(bufferName);
     json["buffers"] = Json::array({std::move(buffer)});
     if (gltf.buffer.unpackedBytes > 0) {
         Json unpacked = {{"byteLength", gltf.buffer.unpackedBytes}};
@@ -407,20 +407,6 @@ std::uint64_t gltfBytes(const ExportScene& scene, GltfPacking packing) {
     for (const Image& image : scene.scene.assets->images)
         bytes += image.rgba.size() / 2;
     return bytes;
-}
-
-std::string uriOf(const std::string& fileName) {
-    std::string uri;
-    for (const char c : fileName) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (std::isalnum(byte) && byte < 128)
-            uri += c;
-        else if (std::string_view("-._~/").find(c) != std::string_view::npos)
-            uri += c;
-        else
-            uri += fmt::format("%{:02X}", byte);
-    }
-    return uri;
 }
 
 std::string stemOf(const std::string& fileName) {

@@ -42,9 +42,6 @@ Result<std::vector<ExportFile>> gltfFiles(const ExportScene& scene, const GltfOp
 /// Bytes of the geometry and textures of that glTF, about: PNG compresses the latter.
 std::uint64_t gltfBytes(const ExportScene& scene, GltfPacking packing = {});
 
-/// A file name as a relative reference: all but unreserved characters of RFC 3986 are escaped.
-std::string uriOf(const std::string& fileName);
-
 /// "room" of "room.gltf".
 std::string stemOf(const std::string& fileName);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/grid_texture.h"
 
+#include "engine/core/percent_encoding.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/vector_json.h"
 #include "engine/files/ktx2.h"
@@ -89,7 +90,7 @@ Json gridJson(const ExportScene& scene, const std::string& texture) {
     const IndirectField& field = scene.field;
     return {{"format", "limn-grid"},
             {"version", 1},
-            {"texture", uriOf(texture)},
+            {"texture", percentEncoded(texture)},
             {"bounds",
              {{"lower", vectorJson(field.gridBounds.lower)},
               {"upper", vectorJson(field.gridBounds.upper)}}},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/engine_formats.h"
 
+#include "engine/core/percent_encoding.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/grid_texture.h"
 #include "engine/export/probe_cube.h"
@@ -95,7 +96,7 @@ static Result<Json> withLight(Json gltf, const ProbeLight& light, BabylonWorld w
         }
         mips.push_back(std::move(faces));
     }
-    gltf["buffers"].push_back({{"uri", uriOf(bufferName)}, {"byteLength", buffer.size()}});
+    gltf["buffers"].push_back({{"uri", percentEncoded(bufferName)}, {"byteLength", buffer.size()}});
     Sh3 mean = light.mean;
     for (glm::vec3& c : mean)
         c /= light.intensity;

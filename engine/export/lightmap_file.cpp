@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/lightmap_file.h"
 
+#include "engine/core/percent_encoding.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/files/exr_image.h"
 #include "engine/files/ktx2.h"
@@ -114,10 +115,10 @@ Json lightmapJson(const LightmapImage& image, const ExportSettings& settings,
     const bool harmonics = image.layers > 1;
     Json json;
     if (files.size() == 1)
-        json["uri"] = uriOf(files.front().name);
+        json["uri"] = percentEncoded(files.front().name);
     else
         for (const ExportFile& file : files)
-            json["uris"].push_back(uriOf(file.name));
+            json["uris"].push_back(percentEncoded(file.name));
     json.update({{"texCoord", 1},
                  {"width", image.width},
                  {"height", image.height},

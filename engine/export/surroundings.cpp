@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/surroundings.h"
 
+#include "engine/core/percent_encoding.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/lightmap_file.h"
 #include "engine/export/panorama.h"
@@ -29,7 +30,7 @@ Result<Json> addPanorama(Surroundings& around, ImageF image, TextureEncoding enc
                                            {.encoding = encoding}, stem);
     if (!file)
         return tl::make_unexpected(file.error());
-    Json json = {{"uri", uriOf(file->name)},
+    Json json = {{"uri", percentEncoded(file->name)},
                  {"width", image.width},
                  {"height", image.height},
                  {"firstRow", "top"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/export/engine_formats.h"
 
+#include "engine/core/percent_encoding.h"
 #include "engine/export/engine_scene.h"
 #include "engine/export/gltf_scene.h"
 #include "engine/export/grid_texture.h"
@@ -37,7 +38,7 @@ static Result<std::vector<ExportFile>> write(const ExportScene& scene,
     const bool hasGrid = !scene.field.grid.empty();
     LitSceneParts parts{.reflections = kReflections};
     if (hasGrid)
-        parts.extras["grid"]["uri"] = uriOf(stem + "-grid.json");
+        parts.extras["grid"]["uri"] = percentEncoded(stem + "-grid.json");
     Result<std::vector<ExportFile>> files =
         litScene(scene, ownSettings(settings), std::move(parts), name, progress);
     if (!files)

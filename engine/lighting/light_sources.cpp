@@ -2,6 +2,7 @@
 #include "engine/lighting/light_sources.h"
 
 #include "engine/lighting/occluder_hash.h"
+#include "engine/math/luminance.h"
 #include "engine/scene/light/unit_light.h"
 
 #include <algorithm>
@@ -9,13 +10,9 @@
 
 namespace limn {
 
-static float largest(glm::vec3 v) {
-    return std::max({v.x, v.y, v.z});
-}
-
 /// Splits `light` into a colour of the source and a weight.
 static WeightedSource weighted(LightSource source, glm::vec3 light, bool apart) {
-    const float peak = largest(light);
+    const float peak = largestChannel(light);
     if (!apart && peak > 0)
         source.color = light / peak;
     return {std::move(source), apart ? light : glm::vec3(peak)};

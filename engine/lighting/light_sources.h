@@ -45,8 +45,6 @@ struct SourceTransport {
     std::vector<Material> materials; ///< without emission
     std::uint64_t moving = 0;        ///< hash of the dynamic instances
     RelightSettings relight;
-
-    bool operator==(const SourceTransport&) const = default;
 };
 SourceTransport sourceTransport(const Scene& scene);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lint/albedo_rules.h"
 
+#include "engine/math/luminance.h"
 #include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/scene/surface/dielectric.h"
 #include "engine/scene/surface/specular.h"
@@ -24,10 +25,6 @@ struct MeanSurface {
     glm::vec3 albedo{0}, reflection{0}; ///< diffuse; at normal incidence
     bool any = false;                   ///< some of it is not a hole
 };
-
-float largest(glm::vec3 v) {
-    return std::max({v.x, v.y, v.z});
-}
 
 /// Mean over points spread evenly over an instance's area.
 MeanSurface meanSurface(const Scene& scene, const MeshUse& use) {
@@ -60,7 +57,7 @@ MeanSurface meanSurface(const Scene& scene, const MeshUse& use) {
 /// Whether it reflects as a metal does, by another share than that of a dielectric straight on.
 bool isMetal(const Material& material, const MeanSurface& mean) {
     constexpr float kRounding = 0.002f;
-    const float reflection = largest(mean.reflection);
+    const float reflection = largestChannel(mean.reflection);
     return reflection > kBlackAlbedo &&
            std::abs(reflection - dielectricF0(material.ior)) > kRounding;
 }
@@ -86,9 +83,9 @@ std::vector<Finding> albedoFindings(const LintScene& in) {
         if (material.emission != glm::vec3(0) || material.transmission > 0 || !(use.area > 0))
             continue;
         const MeanSurface mean = meanSurface(in.scene, use);
-        if (mean.any && largest(mean.albedo) < kBlackAlbedo && !isMetal(material, mean))
+        if (mean.any && largestChannel(mean.albedo) < kBlackAlbedo && !isMetal(material, mean))
             black.add(in.scene, use);
-        if (largest(mean.albedo) > kBrightAlbedo)
+        if (largestChannel(mean.albedo) > kBrightAlbedo)
             bright.add(in.scene, use);
     }
     std::vector<Finding> findings;

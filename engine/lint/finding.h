@@ -19,6 +19,10 @@ enum class Severity : std::uint8_t { Note, Warning, Error };
 
 inline constexpr std::array<std::string_view, 3> kSeverityNames = {"note", "warning", "error"};
 
+constexpr std::string_view severityName(Severity severity) {
+    return kSeverityNames[std::size_t(severity)];
+}
+
 /// What is looked for in a scene.
 struct LintRule {
     std::string_view name; ///< kebab-case, as in reports and docs/lint.md

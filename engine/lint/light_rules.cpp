@@ -42,10 +42,6 @@ std::vector<ObjectId> lightIds(const Document& document) {
     return ids;
 }
 
-float largestChannel(glm::vec3 v) {
-    return std::max({v.x, v.y, v.z});
-}
-
 /// Direct light at points spread over all surfaces [lux].
 struct PointLight {
     std::vector<std::vector<float>> ofLight; ///< per light of the scene and point

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lint/lint_report.h"
 
+#include "engine/core/percent_encoding.h"
 #include "engine/lint/lint.h"
 
 #include <algorithm>
@@ -16,10 +17,6 @@ static Json placeJson(const Finding& finding) {
     return Json::array({finding.place->x, finding.place->y, finding.place->z});
 }
 
-static std::string_view severityName(Severity severity) {
-    return kSeverityNames[std::size_t(severity)];
-}
-
 Json findingsJson(std::span<const Finding> findings) {
     Json all = Json::array();
     for (const Finding& f : findings)
@@ -31,21 +28,6 @@ Json findingsJson(std::span<const Finding> findings) {
                        {"advice", f.advice},
                        {"place", placeJson(f)}});
     return all;
-}
-
-/// A path as a URI reference (RFC 3986, 2005): all but unreserved characters and slashes are
-/// percent-encoded, so that a colon is no scheme.
-static std::string uriOf(const std::string& path) {
-    constexpr std::string_view kPlain = "-._~/";
-    std::string uri;
-    for (const char c : path) {
-        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-        if (letter || (c >= '0' && c <= '9') || kPlain.find(c) != std::string_view::npos)
-            uri += c;
-        else
-            uri += fmt::format("%{:02X}", unsigned(static_cast<unsigned char>(c)));
-    }
-    return uri;
 }
 
 static Json ruleJson(const LintRule& rule) {
@@ -75,7 +57,7 @@ Json sarifLog(std::span<const Finding> findings, const std::string& scene,
     Json rules = Json::array(), results = Json::array();
     for (const LintRule* rule : lintRules())
         rules.push_back(ruleJson(*rule));
-    const std::string uri = uriOf(scene);
+    const std::string uri = percentEncoded(scene);
     for (const Finding& finding : findings)
         results.push_back(resultJson(finding, uri));
     Json driver = {{"name", "limn lint"}, {"version", version}};

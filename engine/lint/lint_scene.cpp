@@ -6,7 +6,6 @@
 #include "engine/scene/origin.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>

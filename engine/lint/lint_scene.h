@@ -49,11 +49,12 @@ struct MeshUse {
 /// All uses of meshes, in the order of their first instances.
 std::vector<MeshUse> meshUses(const Scene& scene);
 
-/// Uses with the same fault, of which one finding speaks for each material: the one of the largest
-/// area, with the number of all instances. By index into Scene::materials.
+/// Collects uses that share a fault, by material, so that each material gets one finding. It is
+/// about the use of the largest area, and counts the instances of all.
 class UsesByMaterial {
 public:
     void add(const Scene& scene, const MeshUse& use);
+    /// By index into Scene::materials.
     const std::map<std::uint32_t, MeshUse>& uses() const { return m_uses; }
 
 private:

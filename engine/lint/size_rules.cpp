@@ -27,13 +27,6 @@ const LintRule kRepairedFileRule = {"repaired-file", Severity::Note,
 
 namespace {
 
-Bounds worldBounds(const Scene& scene, const Instance& instance) {
-    Bounds bounds = kNoBounds;
-    for (const glm::vec3 p : scene.meshOf(instance).positions)
-        extend(bounds, glm::vec3(instance.toWorld * glm::vec4(p, 1)));
-    return bounds;
-}
-
 double diagonalOf(const Bounds& bounds) {
     return isEmpty(bounds) ? 0 : glm::length(glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower));
 }

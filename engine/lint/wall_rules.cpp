@@ -86,7 +86,7 @@ private:
                          low + d * front.t};
     }
 
-    /// Whether a ray does not meet the surface about head on.
+    /// Whether a ray meets the surface at more than 26 degrees from its normal.
     static bool isSlanted(const Hit& hit, glm::vec3 d) {
         return glm::abs(glm::dot(hit.geometricNormal, d)) < 0.9f;
     }

@@ -2,6 +2,7 @@
 // What is exported as glTF is imported again as the same scene.
 #include "engine/export/gltf_scene.h"
 
+#include "engine/core/percent_encoding.h"
 #include "engine/export/export_table.h"
 #include "engine/export/lightmap_image.h"
 #include "engine/field/sample_field.h"
@@ -397,8 +398,8 @@ TEST_F(Gltf, LowersTheDetailUntilTheLightmapFitsItsLimit) {
 }
 
 TEST_F(Gltf, EscapesNamesOfFiles) {
-    EXPECT_EQ(uriOf("a room #1.bin"), "a%20room%20%231.bin");
-    EXPECT_EQ(uriOf("z\xc3\xbcrich.bin"), "z%C3%BCrich.bin");
+    EXPECT_EQ(percentEncoded("a room #1.bin"), "a%20room%20%231.bin");
+    EXPECT_EQ(percentEncoded("z\xc3\xbcrich.bin"), "z%C3%BCrich.bin");
 }
 
 TEST_F(Gltf, IsTheSameEveryTime) {

@@ -35,9 +35,9 @@ TEST(LintReport, NamesPlacesAndObjects) {
     EXPECT_TRUE(all[1]["place"].isNull());
 }
 
-// What the schema of SARIF 2.1.0 requires: sarifLog (version, runs), run (tool), tool (driver),
-// toolComponent (name), reportingDescriptor (id), result (message), and of what its text asks:
-// levels by name, indices of rules, and URIs without blanks.
+// The schema of SARIF 2.1.0 requires a version and runs of a log, a tool of a run, a driver of a
+// tool, a name of a driver, an id of a rule, and a message of a result. Its text asks for levels by
+// name, indices of rules, and URIs without blanks.
 TEST(LintReport, HasWhatTheSchemaOfSarifRequires) {
     const Json log = sarifLog(someFindings(), "my scenes/a:b.gltf", "limn 1");
     EXPECT_EQ(log["version"].get<std::string>(), "2.1.0");

@@ -6,9 +6,14 @@
 #include "engine/techniques/illuminance/format/bake.h"
 #include "engine/trace/trace_scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <memory>
+
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 
 namespace limn {
 
@@ -39,6 +44,19 @@ Result<void> forEachBake(const BenchBakes& options,
 
 /// The settings that distinguish rows, in the order of their columns.
 Json settingsOf(const BenchBake& baked);
+
+/// Sums up how far the values of a field are from the right ones.
+struct FieldDifference {
+    double square = 0, difference = 0; ///< of the right values; of both
+
+    void add(const glm::vec4& value, const glm::vec4& right) {
+        const glm::vec4 d = value - right;
+        square += double(glm::dot(right, right));
+        difference += double(glm::dot(d, d));
+    }
+    /// Root mean square difference, over the root mean square of the right values.
+    double nrmse() const { return std::sqrt(difference / std::max(square, 1e-300)); }
+};
 
 struct Spread {
     double median = 0, p95 = 0;

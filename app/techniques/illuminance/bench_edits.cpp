@@ -44,15 +44,12 @@ Light editedLight(const EditsBench& o, const std::string& edit, Light light, flo
     return light;
 }
 
-/// Root mean square difference of the lightmaps, over the root mean square of `right`.
+/// Of the lightmaps.
 double nrmseOf(const IndirectField& field, const IndirectField& right) {
-    double difference = 0, square = 0;
-    for (std::size_t i = 0; i < right.lightmap.size(); ++i) {
-        const glm::vec4 d = field.lightmap[i] - right.lightmap[i];
-        difference += double(glm::dot(d, d));
-        square += double(glm::dot(right.lightmap[i], right.lightmap[i]));
-    }
-    return std::sqrt(difference / std::max(square, 1e-300));
+    FieldDifference sum;
+    for (std::size_t i = 0; i < right.lightmap.size(); ++i)
+        sum.add(field.lightmap[i], right.lightmap[i]);
+    return sum.nrmse();
 }
 
 struct MeasuredEdit {

@@ -54,23 +54,16 @@ struct Measured {
     std::optional<double> nrmse; ///< of the field at what is seen, against that of "all"
 };
 
-/// Sums up the field of visible caches and its difference from another field.
-struct FieldDifference {
-    double square = 0, difference = 0;
-
-    void add(const Caches& caches, const CacheFlags& seen, const IndirectField& field,
-             const IndirectField& all) {
-        const std::size_t texels = std::size_t(all.lightmapWidth) * all.lightmapHeight;
-        for (std::size_t c = 0; c < seen.size(); ++c)
-            for (std::size_t i = 0; seen[c] != 0 && i < all.coefficients(); ++i) {
-                const std::size_t index = i * texels + caches.texel[c];
-                const glm::vec4 d = field.lightmap[index] - all.lightmap[index];
-                square += double(glm::dot(all.lightmap[index], all.lightmap[index]));
-                difference += double(glm::dot(d, d));
-            }
-    }
-    double nrmse() const { return std::sqrt(difference / std::max(square, 1e-300)); }
-};
+/// Adds what the caches that are seen hold in a field and in that of all.
+void addSeen(FieldDifference& sum, const Caches& caches, const CacheFlags& seen,
+             const IndirectField& field, const IndirectField& all) {
+    const std::size_t texels = std::size_t(all.lightmapWidth) * all.lightmapHeight;
+    for (std::size_t c = 0; c < seen.size(); ++c)
+        for (std::size_t i = 0; seen[c] != 0 && i < all.coefficients(); ++i) {
+            const std::size_t index = i * texels + caches.texel[c];
+            sum.add(field.lightmap[index], all.lightmap[index]);
+        }
+}
 
 /// The scene of run k, with every light and dynamic object moved.
 Scene sceneAt(const RelightBench& o, const Scene& scene, int k) {
@@ -116,8 +109,8 @@ Result<std::vector<Measured>> relightOnCpu(const RelightBench& o, const Scene& s
                 all[m].runs.push_back(stats);
         }
         for (std::size_t m = 0; k > 0 && whole < all.size() && m < all.size(); ++m)
-            differences[m].add(baked.bake->caches, seen, relighters[m]->field(),
-                               relighters[whole]->field());
+            addSeen(differences[m], baked.bake->caches, seen, relighters[m]->field(),
+                    relighters[whole]->field());
     }
     for (std::size_t m = 0; whole < all.size() && m < all.size(); ++m)
         all[m].nrmse = differences[m].nrmse();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/mesh/triangle_geometry.h"
 
+#include <ranges>
+
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
@@ -77,6 +79,12 @@ double worldArea(const Scene& scene, const Instance& instance) {
     for (std::size_t t = 0; t < mesh.triangleCount(); ++t)
         area += stretchedArea(mesh, m, t);
     return area;
+}
+
+Bounds worldBounds(const Scene& scene, const Instance& instance) {
+    return boundsOf(scene.meshOf(instance).positions | std::views::transform([&](glm::vec3 p) {
+                        return glm::vec3(instance.toWorld * glm::vec4(p, 1));
+                    }));
 }
 
 } // namespace limn

@@ -48,4 +48,7 @@ float triangleWorldArea(const Scene& scene, const Instance& instance, std::size_
 /// Total area of one side of the instance's triangles in world space [m^2].
 double worldArea(const Scene& scene, const Instance& instance);
 
+/// Bounding box of the instance's positions in world space; kNoBounds if it has none.
+Bounds worldBounds(const Scene& scene, const Instance& instance);
+
 } // namespace limn

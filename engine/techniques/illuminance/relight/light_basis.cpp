@@ -4,7 +4,6 @@
 #include "engine/core/parallel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -37,14 +36,13 @@ bool LightBasis::hasSum(std::span<const WeightedSource> sources) const {
     return !m_sum.empty() && std::ranges::equal(sources, m_sources);
 }
 
-void LightBasis::keep(const LightSource& source, std::span<const glm::vec3> light,
-                      std::size_t coefficients) {
-    const std::size_t caches = light.size() / coefficients, numbers = 3 * coefficients;
-    SourceLight kept{source, coefficients, std::vector<float>(caches),
+void LightBasis::keep(const LightSource& source, std::span<const glm::vec3> light) {
+    const std::size_t caches = light.size() / m_coefficients, numbers = 3 * m_coefficients;
+    SourceLight kept{source, std::vector<float>(caches),
                      std::vector<std::int16_t>(caches * numbers)};
     parallelRanges(caches, 256, [&](std::size_t begin, std::size_t end) {
         for (std::size_t c = begin; c < end; ++c) {
-            const float* from = &light[c * coefficients].x;
+            const float* from = &light[c * m_coefficients].x;
             float peak = 0;
             for (std::size_t i = 0; i < numbers; ++i)
                 peak = std::max(peak, std::abs(from[i]));

@@ -25,7 +25,8 @@ class LightBasis {
 public:
     static constexpr std::uint64_t kBudget = std::uint64_t(128) << 20;
 
-    /// At most `budget` bytes are kept of sources; those that were weighted last stay.
+    /// Keeps at most `budget` bytes of sources' light. Where it is full, the source whose weight
+    /// changed longest ago is forgotten.
     explicit LightBasis(std::uint64_t budget = kBudget) : m_budget(budget) {}
 
     /// Forgets everything if `scene`'s transport is another. Returns whether it holds anything.
@@ -36,9 +37,8 @@ public:
                 std::span<const glm::vec3> light, std::size_t coefficients);
     bool hasSum(std::span<const WeightedSource> sources) const;
 
-    /// Keeps the light of a source at unit weight.
-    void keep(const LightSource& source, std::span<const glm::vec3> light,
-              std::size_t coefficients);
+    /// Keeps the light of a source at unit weight, with as many coefficients as the sum has.
+    void keep(const LightSource& source, std::span<const glm::vec3> light);
 
     /// The source of the sum whose light is to be found next: the one that was lacking last, then
     /// those that fit in the budget, in their order.
@@ -57,7 +57,6 @@ public:
 private:
     struct SourceLight {
         LightSource source;
-        std::size_t coefficients;         ///< per cache
         std::vector<float> scale;         ///< per cache, of its values
         std::vector<std::int16_t> values; ///< three per coefficient
 

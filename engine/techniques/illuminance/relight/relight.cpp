@@ -78,6 +78,12 @@ struct Relighter::State {
     void readInner();
     void lightSeen(const CacheFlags& which, bool newLight);
 
+    std::uint32_t gridCaches() const {
+        return std::uint32_t(bake->caches.size()) - bake->caches.lightmapCount;
+    }
+    bool wantsGrid(const Scene& scene) const {
+        return gridCaches() > 0 && (unreadGrid || needsGrid(scene, bake->lightmap));
+    }
     void setBands(int count);
     bool takeScene(const Scene& scene, const TraceScene& trace, RelightStats& stats);
     bool updateMaterials(const Scene& scene);
@@ -341,10 +347,8 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     stats.linksOccluded = occlusion.hidden.links;
     stats.occlusionMs = moved ? timer.lap() : 0;
     const bool occlusionChanged = moved && !occlusion.hidden.changed.empty();
-    const Caches& caches = bake->caches;
-    const auto gridCaches = std::uint32_t(caches.size()) - caches.lightmapCount;
-    const bool grid = gridCaches > 0 && (unreadGrid || needsGrid(scene, bake->lightmap));
-    stats.gridCachesSkipped = grid ? 0 : gridCaches;
+    const bool grid = wantsGrid(scene);
+    stats.gridCachesSkipped = grid ? 0 : gridCaches();
     gridMissing = grid && !gridLit;
     gridLit = grid;
     if (materialsChanged || directChanged || gridMissing || summed)
@@ -378,9 +382,7 @@ bool Relighter::State::sumSources(const Scene& scene, RelightStats& stats) {
     std::vector<WeightedSource> now = lightSources(scene, colorsApart());
     const bool changed = now != sources;
     std::swap(sources, now);
-    const auto gridCaches = std::uint32_t(bake->caches.size()) - bake->caches.lightmapCount;
-    const bool grid = gridCaches > 0 && (unreadGrid || needsGrid(scene, bake->lightmap));
-    if (!changed || (grid && !gridLit) || !basis.sum(sources, sh))
+    if (!changed || (wantsGrid(scene) && !gridLit) || !basis.sum(sources, sh))
         return false;
     summed = true;
     unread = false;
@@ -392,7 +394,7 @@ bool Relighter::State::sumSources(const Scene& scene, RelightStats& stats) {
     stats.sourcesKept = std::uint32_t(basis.kept());
     stats.bandsLit = std::uint32_t(bands);
     stats.bandsSkipped = bake->settings.bands - stats.bandsLit;
-    stats.gridCachesSkipped = gridLit ? 0 : gridCaches;
+    stats.gridCachesSkipped = gridLit ? 0 : gridCaches();
     stats.cachesOccluded = occlusion.hidden.caches;
     stats.linksOccluded = occlusion.hidden.links;
     stats.bytes = bytes();
@@ -419,7 +421,7 @@ std::optional<LightSource> Relighter::wantedSource(const Scene& scene) {
 }
 
 void Relighter::keepSource(const LightSource& source, std::span<const glm::vec3> light) {
-    m_state->basis.keep(source, light, std::size_t(m_state->bands * m_state->bands));
+    m_state->basis.keep(source, light);
 }
 
 std::uint64_t Relighter::sourcesGeneration() const {

@@ -210,7 +210,7 @@ TEST(LightBasis, KeepsTheBudgetByForgettingWhatWasUsedLongestAgo) {
     basis.setSum(scene, sources, light, 4);
     for (int k = 0; k < 2; ++k) {
         ASSERT_EQ(basis.wanted(), sources[std::size_t(k)].source);
-        basis.keep(*basis.wanted(), light, 4);
+        basis.keep(*basis.wanted(), light);
     }
     EXPECT_FALSE(basis.wanted()) << "a third does not fit";
     std::vector<glm::vec3> out;
@@ -220,7 +220,7 @@ TEST(LightBasis, KeepsTheBudgetByForgettingWhatWasUsedLongestAgo) {
     sources[2].weight = glm::vec3(2);
     EXPECT_FALSE(basis.sum(sources, out));
     ASSERT_EQ(basis.wanted(), sources[2].source) << "it was asked for";
-    basis.keep(*basis.wanted(), light, 4);
+    basis.keep(*basis.wanted(), light);
     EXPECT_EQ(basis.kept(), 2u);
     EXPECT_TRUE(basis.sum(sources, out));
     EXPECT_FLOAT_EQ(out[7].y, 4);
@@ -237,7 +237,7 @@ TEST(LightBasis, IsAsExactInDarkCaches) {
     LightBasis basis;
     std::vector<WeightedSource> sources{lampAt(0, 0)};
     basis.setSum(scene, sources, std::vector<glm::vec3>(light.size(), glm::vec3(0)), 4);
-    basis.keep(sources[0].source, light, 4);
+    basis.keep(sources[0].source, light);
     sources[0].weight = {1, 2, 4};
     std::vector<glm::vec3> out;
     ASSERT_TRUE(basis.sum(sources, out));
