@@ -3,14 +3,10 @@
 
 #include "engine/scene/bake_settings_fields.h"
 
-#include <algorithm>
-#include <array>
+#include <string>
+#include <vector>
 
 namespace limn {
-
-/// The settings that no ray depends on, in the order from the slowest-varying to the fastest.
-static constexpr std::array<std::string_view, 6> kTracesNothing = {
-    "bands", "chromaBands", "storage", "clustering", "cut", "links"};
 
 void addSweepOptions(Command& command, SettingsSweep& sweep) {
     const BakeSettings defaults;
@@ -27,26 +23,6 @@ void addSweepOptions(Command& command, SettingsSweep& sweep) {
                 return setBakeSetting(scratch, key, text);
             });
     });
-}
-
-std::vector<BakeSettings> sweepRows(const SettingsSweep& sweep) {
-    std::vector<BakeSettings> rows = {BakeSettings{}};
-    const auto vary = [&](const std::string& key) {
-        const auto values = sweep.find(key);
-        if (values == sweep.end() || values->second.empty())
-            return;
-        std::vector<BakeSettings> varied;
-        for (const BakeSettings& row : rows)
-            for (const std::string& value : values->second)
-                setBakeSetting(varied.emplace_back(row), key, value);
-        rows = std::move(varied);
-    };
-    for (const auto& [key, values] : sweep)
-        if (std::ranges::find(kTracesNothing, key) == kTracesNothing.end())
-            vary(key);
-    for (const std::string_view key : kTracesNothing)
-        vary(std::string(key));
-    return rows;
 }
 
 } // namespace limn

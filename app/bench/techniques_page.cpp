@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/techniques_page.h"
 
+#include "app/bench/svg_chart.h"
+
 #include "engine/core/base64.h"
 #include "engine/files/image_file.h"
 
@@ -19,25 +21,6 @@ namespace {
 constexpr std::array kMilliseconds = {2., 5., 10., 33., 100.};
 constexpr std::array kMebibytes = {1., 4., 16., 64., 256.};
 
-/// Colours that colour-blind people tell apart (Okabe, Ito. Color Universal Design. 2008), with a
-/// mark for each.
-struct Ink {
-    const char *color, *mark;
-};
-constexpr std::array<Ink, 6> kInks = {{{"#0072b2", "\u25cf"},
-                                       {"#d55e00", "\u25a0"},
-                                       {"#009e73", "\u25b2"},
-                                       {"#cc79a7", "\u25c6"},
-                                       {"#000000", "\u2716"},
-                                       {"#e69f00", "\u2605"}}};
-
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text)
-        result += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-    return result;
-}
-
 /// Techniques in the order of the rows, with their inks.
 std::map<std::string, Ink> inksOf(const std::vector<Json>& rows) {
     std::map<std::string, Ink> inks;
@@ -46,84 +29,24 @@ std::map<std::string, Ink> inksOf(const std::vector<Json>& rows) {
     return inks;
 }
 
-/// A logarithmic axis from `lower` to `upper`, both > 0, over pixels [from, to].
-struct Axis {
-    double lower, upper, from, to;
-
-    double at(double value) const {
-        const double share = std::log(value / lower) / std::log(upper / lower);
-        return from + share * (to - from);
-    }
-};
-
-/// Smallest value on a time axis [ms] and on a memory axis [MiB]; less costs nothing.
-constexpr double kNothing = 0.01;
-
-/// A row's value of `key` in a unit, at least kNothing.
-double valueIn(const Json& row, const std::string& key, double unit) {
-    return std::max(row[key].get<double>() / unit, kNothing);
-}
-
-/// An axis from one power of ten to another, around all values of `key`.
-Axis axisOf(const std::vector<Json>& rows, const std::string& key, double unit, double from,
-            double to) {
-    double lower = 1e30, upper = kNothing;
-    for (const Json& row : rows) {
-        lower = std::min(lower, valueIn(row, key, unit));
-        upper = std::max(upper, valueIn(row, key, unit));
-    }
-    const double first = std::pow(10, std::floor(std::log10(std::min(lower, upper)))),
-                 last = std::pow(10, std::ceil(std::log10(upper)));
-    return {first, last > first ? last : 10 * first, from, to};
-}
-
 /// A chart of error over `key` in a unit.
 std::string chart(const std::vector<Json>& rows, const std::string& key, double unit,
                   const char* title) {
-    constexpr double kWidth = 480, kHeight = 310, kLeft = 46, kBottom = 270, kTop = 26,
-                     kRight = 450;
-    const Axis x = axisOf(rows, key, unit, kLeft, kRight),
-               y = axisOf(rows, "nrmse", 1, kBottom, kTop);
-    std::string svg = fmt::format(
-        "<svg viewBox=\"0 0 {} {}\" width=\"{}\" height=\"{}\" role=\"img\" aria-label=\"{}\">\n",
-        kWidth, kHeight, kWidth, kHeight, title);
-    const auto line = [&](double x0, double y0, double x1, double y1) {
-        svg += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
-                           "stroke=\"#ddd\"/>\n",
-                           x0, y0, x1, y1);
-    };
-    const auto text = [&](double tx, double ty, const char* anchor, const std::string& what,
-                          const char* color) {
-        svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" fill=\"{}\">{}"
-                           "</text>\n",
-                           tx, ty, anchor, color, what);
-    };
-    for (double v = x.lower; v <= 1.001 * x.upper; v *= 10) {
-        line(x.at(v), kTop, x.at(v), kBottom);
-        text(x.at(v), kBottom + 16, "middle", fmt::format("{:g}", v), "#444");
-    }
-    for (double v = y.lower; v <= 1.001 * y.upper; v *= 10) {
-        line(kLeft, y.at(v), kRight, y.at(v));
-        text(kLeft - 6, y.at(v) + 4, "end", fmt::format("{:g}", v), "#444");
-    }
+    Chart chart{title, "nRMSE", {}, {}};
     for (const auto& [technique, ink] : inksOf(rows))
         for (const Json& row : rows)
             if (row["technique"] == technique)
-                svg += fmt::format(
-                    "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" fill=\"{}\">{}"
-                    "<title>{}, {}</title></text>\n",
-                    x.at(valueIn(row, key, unit)), y.at(valueIn(row, "nrmse", 1)) + 5, ink.color,
-                    ink.mark, escaped(technique), escaped(row["settings"].get<std::string>()));
-    text((kLeft + kRight) / 2, kHeight - 4, "middle", title, "#444");
-    text(4, 11, "start", "nRMSE", "#444");
-    return svg + "</svg>\n";
+                chart.marks.push_back({row[key].get<double>() / unit, row["nrmse"].get<double>(),
+                                       ink, technique + ", " + row["settings"].get<std::string>(),
+                                       ""});
+    return svgOf(chart);
 }
 
 std::string legend(const std::vector<Json>& rows) {
     std::string html = "<p>";
     for (const auto& [technique, ink] : inksOf(rows))
         html += fmt::format("<span style=\"color:{}\">{}</span> {} &nbsp; ", ink.color, ink.mark,
-                            escaped(technique));
+                            escapedHtml(technique));
     return html + "</p>\n";
 }
 
@@ -136,8 +59,8 @@ std::string winners(const std::vector<Json>& rows, const std::string& key, doubl
         const Json* best = bestWithin(rows, key, budget * unit);
         html += fmt::format("<tr><td>{:g}</td>", budget);
         html += best ? fmt::format("<td>{}, {}</td><td>{:.3f}</td></tr>\n",
-                                   escaped((*best)["technique"].get<std::string>()),
-                                   escaped((*best)["settings"].get<std::string>()),
+                                   escapedHtml((*best)["technique"].get<std::string>()),
+                                   escapedHtml((*best)["settings"].get<std::string>()),
                                    (*best)["nrmse"].get<double>())
                      : "<td>none</td><td></td></tr>\n";
     }
@@ -160,7 +83,7 @@ std::string allRows(const std::vector<Json>& rows) {
         const auto cell = [&html](const std::string& text) { html += "<td>" + text + "</td>"; };
         html += "<tr>";
         for (const char* key : {"technique", "settings", "device"})
-            cell(escaped(r[key].get<std::string>()));
+            cell(escapedHtml(r[key].get<std::string>()));
         cell(number(r["seconds"], "{:.2f}"));
         cell(number(r["bytes"], "{:.2f}", 1 << 20));
         for (const char* key : {"light_ms", "color_ms", "material_ms", "object_ms", "camera_ms"})
@@ -241,11 +164,12 @@ Result<std::string> techniquesPage(const std::vector<PageScene>& scenes,
         "empty: it never is, or was not within the time of the measurement. Leak is the mean "
         "irradiance in a sealed dark room over that in the "
         "lit one beside it: " +
-        escaped(leakRoom) + ".</p>\n";
+        escapedHtml(leakRoom) + ".</p>\n";
     for (const PageScene& scene : scenes) {
-        html += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", escaped(scene.name), escaped(scene.note));
+        html += fmt::format("<h2>{}</h2>\n<p>{}</p>\n", escapedHtml(scene.name),
+                            escapedHtml(scene.note));
         for (const auto& [device, rows] : byDevice(scene.rows)) {
-            html += fmt::format("<h3>On {}</h3>\n", escaped(device));
+            html += fmt::format("<h3>On {}</h3>\n", escapedHtml(device));
             html += legend(rows);
             html += chart(rows, "light_ms", 1, "ms after a light has moved");
             html += chart(rows, "bytes", 1 << 20, "MiB");
@@ -259,7 +183,7 @@ Result<std::string> techniquesPage(const std::vector<PageScene>& scenes,
                 return tl::make_unexpected(png.error());
             html += fmt::format("<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\" "
                                 "width=\"300\"><figcaption>{0}</figcaption></figure>\n",
-                                escaped(picture.caption), base64(*png));
+                                escapedHtml(picture.caption), base64(*png));
         }
     }
     return html + "</html>\n";

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/measure/bake_to_error.h"
 
-#include "engine/core/parallel.h"
 #include "engine/core/process_memory.h"
-#include "engine/measure/seen_points.h"
-#include "engine/shading/direct_light.h"
+#include "engine/measure/seen_truth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,72 +17,19 @@ namespace {
 
 constexpr std::uint32_t kMaxTexels = 1U << 22, kMaxSurfels = 1U << 20, kMaxLinks = 1024,
                         kMaxRays = 4096;
-constexpr std::uint32_t kWidth = 96, kHeight = 54; ///< numbers of points across and down
-constexpr std::uint32_t kPaths = 64;               ///< number for a point, in each reference
-
 std::uint32_t times(std::uint32_t count, double factor, std::uint32_t maximum) {
     return std::max(count, std::uint32_t(std::min(std::round(count * factor), double(maximum))));
 }
 
-/// Reference at the visible points: direct irradiance, and irradiance with all bounces, estimated
-/// twice by independent paths. The images have one row.
-struct Truth {
-    std::vector<SeenPoint> points;
-    ImageF direct, first, second;
-};
-
-ImageF row(std::vector<glm::vec3> rgb) {
-    const auto width = std::uint32_t(rgb.size());
-    return {width, 1, std::move(rgb)};
-}
-
-ImageF sum(ImageF image, const std::vector<glm::vec3>& more) {
-    for (std::size_t i = 0; i < more.size(); ++i)
-        image.rgb[i] += more[i];
-    return image;
-}
-
-/// Computes the reference; std::nullopt when cancelled.
-std::optional<Truth> findTruth(const TraceScene& trace, const Camera& camera,
-                               const Progress& progress) {
-    Truth truth;
-    truth.points = findSeenPoints(trace, camera, kWidth, kHeight, 1);
-    std::vector<glm::vec3> direct(truth.points.size());
-    parallelRanges(direct.size(), 64, [&](std::size_t begin, std::size_t end) {
-        std::uint64_t rays = 0;
-        for (std::size_t i = begin; i < end; ++i)
-            direct[i] = directIrradiance(trace, truth.points[i].surface, rays);
-    });
-    truth.direct = row(std::move(direct));
-    const Emitters emitters = findEmitters(trace);
-    const SkyLight sky = findSkyLight(trace.scene().sky);
-    const PathContext context{trace, emitters, sky};
-    const auto first = traceIrradiance(context, truth.points, kPaths, 2, progress),
-               second = traceIrradiance(context, truth.points, kPaths, 3, progress);
-    if (!first || !second)
-        return {};
-    truth.first = sum(truth.direct, *first);
-    truth.second = sum(truth.direct, *second);
-    return truth;
-}
-
-bool isDark(const Truth& truth) {
-    return std::ranges::all_of(truth.first.rgb, [](glm::vec3 e) { return e == glm::vec3(0); });
-}
-
-Result<Comparison> measure(const TraceScene& trace, const Prepared& prepared, const Truth& truth,
-                           const Progress& progress) {
+Result<Comparison> measure(const TraceScene& trace, const Prepared& prepared,
+                           const SeenTruth& truth, const Progress& progress) {
     const Scene& scene = trace.scene();
     const auto lighting = prepared.data->technique().light(prepared);
     lighting->update({.scene = scene, .trace = &trace, .bounces = scene.relight.maxBounces},
                      progress);
     if (progress.cancelled())
         return fail("cancelled");
-    const Result<Comparison> error = compareImages(
-        sum(truth.direct,
-            lookUpIrradiance(*lighting->field(), prepared.data->layout(), scene, truth.points)),
-        truth.first, truth.second);
-    return error;
+    return compareWithTruth(trace, *lighting, prepared.data->layout(), truth);
 }
 
 bool fits(const Technique& technique, const Scene& scene, const BakeSettings& settings, bool stored,
@@ -133,7 +78,7 @@ Result<MeasuredBake> bakeToError(const Technique& technique, const TraceScene& t
     using End = MeasuredBake::End;
     BakeSettings settings = trace.scene().bake;
     const auto scene = std::make_shared<const Scene>(trace.scene());
-    std::optional<Truth> truth;
+    std::optional<SeenTruth> truth;
     MeasuredBake best;
     for (int inVain = 0;;) {
         const auto made = technique.precomputation->prepare(
@@ -142,10 +87,10 @@ Result<MeasuredBake> bakeToError(const Technique& technique, const TraceScene& t
             return tl::make_unexpected(made.error());
         MeasuredBake next{*made, {}, End::Held};
         if (!truth)
-            truth = findTruth(trace, goal.camera, progress);
+            truth = findSeenTruth(trace, goal.camera, TruthSize{}, progress);
         if (!truth)
             return fail("cancelled");
-        if (isDark(*truth))
+        if (truth->isDark())
             return fail("the camera sees no light, so no error is known");
         Result<Comparison> error = measure(trace, {next.bake, scene}, *truth, progress);
         if (!error)

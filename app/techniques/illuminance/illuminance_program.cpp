@@ -88,6 +88,7 @@ static void addBenches(Command& bench) {
     addRelightBench(bench);
     addStressBench(bench);
     addFrameBench(bench);
+    addFrontBench(bench);
 }
 
 constinit const TechniqueProgram kIlluminanceProgram = {.technique = &kIlluminanceTechnique,

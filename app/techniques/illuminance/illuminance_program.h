@@ -13,6 +13,7 @@ void addEditsBench(Command& bench);
 void addEnergyBench(Command& bench);
 void addErrorBench(Command& bench);
 void addFrameBench(Command& bench);
+void addFrontBench(Command& bench);
 void addGlossyBench(Command& bench);
 void addLinksBench(Command& bench);
 void addPredictBench(Command& bench);
