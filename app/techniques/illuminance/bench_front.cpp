@@ -36,7 +36,7 @@ struct FrontBench {
     std::vector<std::string> scenes;
     std::string output;
     SettingsSweep sweep;
-    std::uint32_t liveSamples = 16, gatheredSamples = 4; ///< per pixel of a row's pictures
+    std::uint32_t liveSamples = 16, gatheredSamples = 64; ///< per pixel of a row's pictures
     int runs = 31, threads = 0;
     std::vector<std::string> presets = {"draft", "medium", "high"};
     bool json = false;
@@ -106,6 +106,22 @@ void addError(Json& row, const std::string& prefix, const Comparison& c) {
     row[prefix + "bias_noise"] = c.biasNoise;
 }
 
+/// Gathered pictures are smaller by this factor, where it divides their size, because a sample
+/// takes so long.
+constexpr std::uint32_t kGatheredShare = 4;
+
+/// A picture whose pixels are the means of those of `image`, `factor` by `factor` of them. Pixels
+/// are boxes, so that it is what a smaller picture of the same view shows.
+ImageF smaller(const ImageF& image, std::uint32_t factor) {
+    ImageF result{image.width / factor, image.height / factor, {}};
+    result.rgb.resize(std::size_t(result.width) * result.height);
+    for (std::uint32_t y = 0; y < image.height; ++y)
+        for (std::uint32_t x = 0; x < image.width; ++x)
+            result.rgb[std::size_t(y / factor) * result.width + x / factor] +=
+                image.rgb[std::size_t(y) * image.width + x] / float(factor * factor);
+    return result;
+}
+
 /// The error of gathered pictures without the noise of their rays: of two pictures t and u whose
 /// noise is independent, as that of the references r and s is, nRMSE^2 is the mean of (t - r)(u -
 /// s) over the squared mean of the references; 0 where that is negative.
@@ -115,6 +131,11 @@ void addGathered(const FrontBench& o, const FrontScene& front, const Lighting& l
         row[key] = nullptr;
     if (o.gatheredSamples == 0)
         return;
+    const bool divides =
+        picture.width % kGatheredShare == 0 && picture.height % kGatheredShare == 0;
+    const std::uint32_t factor = divides ? kGatheredShare : 1;
+    picture.width /= factor;
+    picture.height /= factor;
     picture.samplesPerPixel = std::max(o.gatheredSamples / 2, 1U);
     picture.nearRays = kFileSamples.nearRays;
     picture.gatherRays = kFileSamples.gatherRays;
@@ -124,7 +145,8 @@ void addGathered(const FrontBench& o, const FrontScene& front, const Lighting& l
         half = renderField(*front.trace, *lighting.field(), layout, picture, progressOnStderr());
         ++picture.seed;
     }
-    const ImageF r = front.truth.first(), s = front.truth.second();
+    const ImageF r = smaller(front.truth.first(), factor),
+                 s = smaller(front.truth.second(), factor);
     double product = 0, noise = 0;
     for (std::size_t p = 0; p < r.rgb.size(); ++p) {
         const glm::dvec3 t = halves[0].rgb[p], u = halves[1].rgb[p], first = r.rgb[p],
@@ -273,8 +295,10 @@ void addFrontBench(Command& bench) {
                 "Samples per pixel of the pictures of live light, which are not gathered")
         .within(1, 1 << 16);
     command
-        .option("--gathered-spp", o->gatheredSamples,
-                "Samples per pixel of the gathered pictures, whose noise does not count; 0: none")
+        .option(
+            "--gathered-spp", o->gatheredSamples,
+            "Samples per pixel of the gathered pictures, which are a quarter as wide, and whose "
+            "noise does not count; 0: none")
         .within(0, 1 << 16);
     command
         .option("--metal", o->view.metal,
