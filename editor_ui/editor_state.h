@@ -10,6 +10,7 @@
 #include "editor_ui/panels/export_dialog.h"
 #include "editor_ui/panels/file_browser.h"
 #include "editor_ui/panels/key_map.h"
+#include "editor_ui/panels/measured_errors.h"
 #include "editor_ui/panels/notice.h"
 #include "editor_ui/panels/outliner_panel.h"
 #include "editor_ui/panels/palette.h"
@@ -108,7 +109,12 @@ struct EditorState {
     Palette palette;
     bool autoBake = true;   ///< bakes whenever that is needed and nothing is held
     float bakeError = 0.2f; ///< maximum nRMSE of a bake to an error
-    double seconds = 0;     ///< since the start of what is animated
+    /// What settings are fitted to: milliseconds of an update, and MiB of a bake with what updates
+    /// read and write beside it.
+    float budgetMs = 5, budgetMiB = 32;
+    double budgetSeconds = 270;                      ///< for the search
+    std::vector<MeasuredError> measuredErrors;       ///< of bakes of this scene, in this session
+    double seconds = 0;                              ///< since the start of what is animated
     std::shared_ptr<const SceneAnimation> animation; ///< of the scene file; null: it has none
     bool playing = false;                            ///< `seconds` advances
     Prediction prediction;                           ///< of a bake of the document

@@ -19,6 +19,7 @@ struct Request {
         Save,
         Bake,
         BakeToError,   ///< EditorState::bakeError
+        FitToBudget,   ///< EditorState::budgetMs and budgetMiB
         BakeSelection, ///< EditorState::selection alone gets all of its texels
         CancelBake,
         Lint, ///< checks the scene

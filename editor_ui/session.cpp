@@ -155,6 +155,13 @@ void Session::handle(const Request& request) {
         m_bakeWish = {.goal = ErrorGoal{double(state.bakeError), state.view.camera}};
         m_bakeSoon = true;
         break;
+    case Request::Kind::FitToBudget: {
+        const SearchGoal limits{.maxMs = double(state.budgetMs),
+                                .maxBytes = double(state.budgetMiB) * (1 << 20)};
+        m_bakeWish = {.budget = BudgetGoal{limits, state.view.camera, state.budgetSeconds}};
+        m_bakeSoon = true;
+        break;
+    }
     case Request::Kind::BakeSelection:
         m_bakeWish = {.selection = selectionWithChildren(state)};
         m_bakeSoon = true;
@@ -204,6 +211,7 @@ void Session::takeOpened() {
 void Session::show(OpenedFile file) {
     m_bakeJob.cancel();
     m_bakeJob.takeUpdate();
+    m_bakeJob.takeErrors(); // of another scene
     EditorState before = std::exchange(state, {});
     useSettings(state, settingsOf(before));
     state.view.origin = before.view.origin;

@@ -130,9 +130,10 @@ void Session::takeBaked() {
     }
 }
 
-/// Shows the result of a bake to an error and makes its settings the document's.
+/// Shows the result of a bake to an error or to a budget and makes its settings the document's.
 void Session::showGoal(const std::string& goal) {
-    setBakeSettings(state, m_baked.bake->settings(), "Bake until the error holds");
+    setBakeSettings(state, m_baked.bake->settings(),
+                    m_baked.fitted ? "Fit to budget" : "Bake until the error holds");
     state.bake.goal = goal;
     log(LogLine::Level::Info, goal);
 }
@@ -158,6 +159,8 @@ void Session::showStatus() {
     if (!viewportRelights())
         state.relight = m_relit.status;
     m_bakeJob.report(state.bake);
+    for (const MeasuredError& error : m_bakeJob.takeErrors())
+        state.measuredErrors.push_back(error);
     if (state.bake.running)
         m_bakeSecondsRunning = state.bake.elapsedSeconds;
     state.bake.freshness =

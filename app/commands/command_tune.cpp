@@ -29,7 +29,7 @@ struct TuneCommand {
     CameraOptions camera;
     SettingsSweep sweep;
     std::optional<double> budgetMs, budgetMiB, error;
-    double seconds = 300;
+    double seconds = 270;
     int threads = 0;
     std::string output;
     bool json = false;

@@ -8,6 +8,8 @@
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -37,6 +39,7 @@ bool BakeJob::start(BakeOrder order) {
         const std::lock_guard lock(m_mutex);
         m_stage.clear();
         m_step.clear();
+        m_fitting = order.budget.has_value();
         m_stageFraction = 0;
         m_stageStart = m_start;
         m_result.reset();
@@ -83,6 +86,16 @@ Result<std::shared_ptr<const Precomputed>> BakeJob::bakeWith(const Precomputatio
 void BakeJob::setStep(std::string step) {
     const std::lock_guard lock(m_mutex);
     m_step = std::move(step);
+}
+
+void BakeJob::keepError(MeasuredError error) {
+    const std::lock_guard lock(m_mutex);
+    m_errors.push_back(error);
+}
+
+std::vector<MeasuredError> BakeJob::takeErrors() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_errors, {});
 }
 
 void BakeJob::put(Result<BakedScene> result) {
@@ -132,6 +145,7 @@ Result<BakedScene> BakeJob::bakeToGoal(const BakeOrder& order) {
     setStep(texelsText(draft.bake));
     const TraceScene trace(draft, *order.trace);
     const auto next = [&](const MeasuredBake& made) {
+        keepError({made.bake->settings(), made.error.nrmse});
         setStep(fmt::format("{}, after an error of {:.2f}",
                             texelsText(finerSettings(made.bake->settings())), made.error.nrmse));
     };
@@ -150,8 +164,47 @@ Result<BakedScene> BakeJob::bakeToGoal(const BakeOrder& order) {
                                           why.empty() ? why : "; " + why)};
 }
 
+Result<BakedScene> BakeJob::bakeToBudget(const BakeOrder& order) {
+    const TraceScene trace(*order.scene, *order.trace);
+    setStep("first bake");
+    std::size_t trials = 0;
+    double least = std::numeric_limits<double>::infinity();
+    const auto tried = [&](const SettingsTrial& trial) {
+        const SearchGoal& limits = order.budget->limits;
+        if (excess(limits, {trial.nrmse, trial.ms, trial.bytes}) <= 1)
+            least = std::min(least, trial.nrmse);
+        keepError({trial.settings, trial.nrmse});
+        setStep(fmt::format("{} measured, {}", ++trials,
+                            std::isfinite(least) ? fmt::format("least error {:.3f}", least)
+                                                 : std::string("none keeps the budget yet")));
+    };
+    const Technique& technique = precomputingTechnique(order.scene->technique);
+    const Result<FittedSettings> fitted =
+        fitToBudget(technique, trace, usualFitSweep(), *order.budget, progress(), m_memory, tried);
+    if (!fitted)
+        return tl::make_unexpected(fitted.error());
+    if (const std::string why = shortfall(*fitted, order.budget->limits); !why.empty())
+        return fail(why);
+    auto scene = std::make_shared<Scene>(*order.scene);
+    scene->bake = fitted->best.settings;
+    setStep("bake of the settings found");
+    const auto baked = bakeWith(*technique.precomputation, scene->bake, scene->technique, trace);
+    if (!baked)
+        return tl::make_unexpected(baked.error());
+    const SettingsTrial& best = fitted->best;
+    return BakedScene{.bake = *baked,
+                      .scene = std::move(scene),
+                      .trace = order.trace,
+                      .goal = fmt::format("{:.2f} ms, {} and an error of {:.3f}, the least of {} "
+                                          "settings that were measured",
+                                          best.ms, byteText(std::uint64_t(best.bytes)), best.nrmse,
+                                          fitted->trials.size()),
+                      .fitted = true};
+}
+
 void BakeJob::work(const BakeOrder& order) {
     const Result<BakedScene> baked = order.goal                ? bakeToGoal(order)
+                                     : order.budget            ? bakeToBudget(order)
                                      : order.selection.empty() ? bakeScene(order)
                                                                : bakeSelection(order);
     if (baked) {
@@ -202,6 +255,7 @@ void BakeJob::report(BakeStatus& status) const {
     const std::lock_guard lock(m_mutex);
     status.stage = m_stage;
     status.step = m_step;
+    status.fitting = m_fitting;
     status.stageFraction = m_stageFraction;
     const auto now = Clock::now();
     status.elapsedSeconds = std::chrono::duration<double>(now - m_start).count();

@@ -2,10 +2,12 @@
 #pragma once
 
 #include "editor_ui/panels/bake_estimate.h"
+#include "editor_ui/panels/measured_errors.h"
 #include "editor_ui/panels/statistics.h"
 #include "engine/core/result.h"
 #include "engine/lighting/technique.h"
 #include "engine/measure/bake_to_error.h"
+#include "engine/measure/fit_to_budget.h"
 #include "engine/stages/stage_store.h"
 
 #include <atomic>
@@ -26,8 +28,9 @@ struct BakedScene {
     std::shared_ptr<const TraceScene> trace;
     bool preview = false;   ///< made with few rays; the full bake follows
     bool selection = false; ///< only BakeOrder::selection has all of its texels
-    /// Result of a bake to an error, in words; empty if the settings were given.
+    /// Result of a bake to an error or to a budget, in words; empty if the settings were given.
     std::string goal;
+    bool fitted = false; ///< to a budget
 
     Prepared prepared() const { return {bake, scene}; }
 };
@@ -42,6 +45,9 @@ struct BakeOrder {
     /// Bakes become finer until this error holds; they begin with the counts of draft instead of
     /// the scene's. The result's scene has the settings found.
     std::optional<ErrorGoal> goal = {};
+    /// The settings are searched that have the least error within this budget, and baked. The
+    /// result's scene has them; where none keep the budget, there is no result.
+    std::optional<BudgetGoal> budget = {};
     /// Nodes that alone get all of their texels, as selectionScene() has it; empty: all do.
     std::vector<ObjectId> selection = {};
 };
@@ -71,6 +77,9 @@ public:
     /// Returns the result of the last bake once: the bake, its preview, or the error ("cancelled").
     std::optional<Result<BakedScene>> takeResult();
 
+    /// Returns the errors that bakes to an error or to a budget have measured since the last call.
+    std::vector<MeasuredError> takeErrors();
+
     /// Fills in stage, fractions and time left of the running bake; leaves the other fields
     /// unchanged.
     void report(BakeStatus& status) const;
@@ -79,6 +88,7 @@ private:
     void work(const BakeOrder& order);
     Result<BakedScene> bakeScene(const BakeOrder& order);
     Result<BakedScene> bakeToGoal(const BakeOrder& order);
+    Result<BakedScene> bakeToBudget(const BakeOrder& order);
     Result<BakedScene> bakeSelection(const BakeOrder& order);
     Result<std::shared_ptr<const Precomputed>> bakeWith(const Precomputation& precomputation,
                                                         const BakeSettings& settings,
@@ -86,6 +96,7 @@ private:
                                                         const TraceScene& trace);
     Progress progress();
     void setStep(std::string step);
+    void keepError(MeasuredError error);
     void put(Result<BakedScene> result);
     void measureUpdate(const BakedScene& baked);
 
@@ -97,11 +108,13 @@ private:
     std::chrono::steady_clock::time_point m_start;
     mutable std::mutex m_mutex; ///< guards the members below
     std::string m_stage, m_step;
+    bool m_fitting = false;
     float m_stageFraction = 0;
     std::chrono::steady_clock::time_point m_stageStart;
     StageSeconds m_expected; ///< of the running bake
     std::optional<Result<BakedScene>> m_result;
     std::optional<LightingReport> m_update;
+    std::vector<MeasuredError> m_errors;
 };
 
 } // namespace limn

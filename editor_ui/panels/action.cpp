@@ -301,6 +301,9 @@ void startBake(EditorState& s) {
 void bakeToErrorAction(EditorState& s) {
     request(s, Request::Kind::BakeToError);
 }
+void fitToBudgetAction(EditorState& s) {
+    request(s, Request::Kind::FitToBudget);
+}
 bool canBakeSelection(const EditorState& s) {
     return canBake(s) && hasNode(s);
 }
@@ -437,6 +440,7 @@ std::vector<Action> fixedActions() {
     {"view.light_theme", "Light theme", Menu::View, kNoKey, kNoKey, false, always, toggleTheme, hasLightTheme},
     {"bake.start", "Bake now", Menu::Bake, ctrl('B'), kNoKey, false, canBake, startBake},
     {"bake.error", "Bake until the error holds", Menu::Bake, kNoKey, kNoKey, false, canBake, bakeToErrorAction},
+    {"bake.budget", "Fit to budget", Menu::Bake, kNoKey, kNoKey, false, canBake, fitToBudgetAction},
     {"bake.selection", "Bake the selection only", Menu::Bake, kNoKey, kNoKey, false, canBakeSelection, bakeSelection},
     {"bake.cancel", "Cancel the bake", Menu::Bake, kNoKey, kNoKey, false, baking, cancelBake},
     {"bake.check", "Check the scene", Menu::Bake, kNoKey, kNoKey, true, always, checkScene},

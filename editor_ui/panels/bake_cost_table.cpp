@@ -3,6 +3,7 @@
 
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/field.h"
+#include "engine/measure/settings_sweep.h"
 
 #include <imgui.h>
 
@@ -90,6 +91,44 @@ double wholeOf(const StageSeconds& seconds) {
     return known ? totalOf(seconds) : 0;
 }
 
+/// "about" where the error is that of similar settings.
+void errorCells(const EditorState& state) {
+    const MeasuredError* near =
+        nearestError(state.measuredErrors, singleton<BakeSettings>(state.document));
+    label("Error", "nRMSE of the irradiance that the view shows, direct and bounced: measured by "
+                   "\"Fit to a budget\" and \"Bake to an error\" in this session, in the light and "
+                   "from the view of then");
+    if (!near) {
+        number(kUnknown, state.measuredErrors.empty()
+                             ? "Not known: no errors have been measured in this session"
+                             : "Not known: no settings were measured that are alike these");
+        ImGui::TableNextColumn();
+        return;
+    }
+    const bool same = near->settings == singleton<BakeSettings>(state.document);
+    const std::string text = fmt::format("{:.3f}", near->nrmse);
+    const std::string of = settingsName(near->settings);
+    number(same ? text : "about " + text,
+           same ? "Measured with these settings"
+                : ("That of the most similar settings that were measured: " + of).c_str());
+    number(same ? text : kUnknown, same ? "Measured" : "Not measured with these settings");
+}
+
+/// Says in words whose error the table shows.
+void errorNote(const EditorState& state) {
+    const BakeSettings settings = singleton<BakeSettings>(state.document);
+    const MeasuredError* near = nearestError(state.measuredErrors, settings);
+    if (near && near->settings == settings)
+        return;
+    ImGui::PushTextWrapPos(0);
+    if (near)
+        ImGui::TextDisabled("The error is that of similar settings: %s.",
+                            settingsName(near->settings).c_str());
+    else
+        ImGui::TextDisabled("The error is not known: nothing alike was measured in this session.");
+    ImGui::PopTextWrapPos();
+}
+
 } // namespace
 
 void bakeCostTable(const EditorState& state) {
@@ -115,7 +154,9 @@ void bakeCostTable(const EditorState& state) {
     label("Relighting", "One update of one bounce on the processor with all lights moved");
     number(secondsText(bake.expected.updateMs / 1000));
     number(secondsText(bake.measured.updateMs / 1000));
+    errorCells(state);
     ImGui::EndTable();
+    errorNote(state);
 }
 
 } // namespace limn

@@ -93,6 +93,25 @@ static void errorRow(EditorState& state) {
         actionButton(state, "bake.error");
 }
 
+static void budgetRows(EditorState& state) {
+    fieldLabel("Update (ms)",
+               "Maximum time of one update of one bounce on the processor, all lights moved [ms]");
+    ImGui::DragFloat("##budgetMs", &state.budgetMs, 0.05f, 0.1f, 1000, "%.2f",
+                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    fieldLabel("Memory (MiB)",
+               "Maximum memory of the bake and of what updates read and write beside it [MiB]");
+    ImGui::DragFloat("##budgetMiB", &state.budgetMiB, 0.2f, 1, 65536, "%.1f",
+                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    if (state.bake.running) {
+        actionButton(state, "bake.cancel");
+        return;
+    }
+    actionButton(state, "bake.budget");
+    wrappedTooltip("Measures settings for up to five minutes and takes those whose light, as this "
+                   "view shows it, has the least error within both limits. One edit, which can "
+                   "be undone");
+}
+
 static void presetRow(FieldEdit& edit, BakeSettings& s) {
     constexpr const char* kLabels[] = {"Draft", "Medium", "High"};
     static_assert(std::size(kLabels) == kBakePresets.size());
@@ -140,6 +159,8 @@ void bakeSection(FieldEdit& edit, BakeSettings& s) {
         allSettingRows(edit, s);
     if (card(edit.state, "Bake to an error"))
         errorRow(edit.state);
+    if (card(edit.state, "Fit to a budget"))
+        budgetRows(edit.state);
     if (card(edit.state, "Predicted and measured"))
         bakeCostTable(edit.state);
 }

@@ -178,7 +178,9 @@ static void bakeProgress(EditorState& state) {
     const float width = ImGui::GetFontSize() * (toError ? 24.f : 18.f);
     ImGui::ProgressBar(toError ? bake.stageFraction : bake.fraction, {width, 0}, text.c_str());
     ImGui::SameLine();
-    if (toError)
+    if (toError && bake.fitting)
+        ImGui::Text("within %.1f ms, %.0f MiB", double(state.budgetMs), double(state.budgetMiB));
+    else if (toError)
         ImGui::Text("until %.2f", double(state.bakeError));
     else if (bake.secondsLeft >= 1)
         ImGui::Text("about %s left", durationText(bake.secondsLeft).c_str());

@@ -40,9 +40,11 @@ struct BakeStatus {
     bool selection = false;   ///< only a selection has all of its texels
     bool lightEdited = false; ///< since the scene was opened
     double secondsSinceLightEdit =
-        0;             ///< spent baking since a light, material or sky was last edited
-    std::string step;  ///< of a running bake to an error: "20 000 texels, after an error of 0.31"
-    std::string goal;  ///< what the last bake, made to an error, came to; empty: it was not
+        0; ///< spent baking since a light, material or sky was last edited
+    /// Of a running bake to an error or to a budget: "20 000 texels, after an error of 0.31".
+    std::string step;
+    bool fitting = false; ///< it is one to a budget
+    std::string goal; ///< what the last bake, made to an error or a budget, came to; empty: neither
     std::string error; ///< why the last bake has no result; empty: it has one
 };
 

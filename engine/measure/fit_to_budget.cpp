@@ -29,22 +29,19 @@ constexpr std::array<Level, 3> kLevels = {
     {{{64, 36, 32}, 3, 0.5}, {{96, 54, 32}, 5, 0.65}, {{96, 54, 64}, 9, 1}}};
 constexpr std::size_t kMostFirst = 20, kFewestFirst = 4; ///< candidates of level 0
 
-/// Sum over the counts of the absolute log2 of their ratios, and 1 for each other setting that
-/// differs.
-double distanceOf(const BakeSettings& a, const BakeSettings& b) {
-    const auto octaves = [](double x, double y) {
-        return x > 0 && y > 0 ? std::abs(std::log2(x / y)) : x == y ? 0 : 1;
-    };
-    return octaves(a.surfels, b.surfels) + octaves(a.links, b.links) +
-           octaves(a.lightmapCaches, b.lightmapCaches) + octaves(a.rays, b.rays) +
-           octaves(a.texelsPerMetre, b.texelsPerMetre) + (a.bands != b.bands) +
-           (a.storage != b.storage) + (a.chromaBands != b.chromaBands) + (a.cut != b.cut);
-}
-
 /// Whether no count of `a` exceeds that of `b`, and one is less.
 bool isSmaller(const BakeSettings& a, const BakeSettings& b) {
     return a.surfels <= b.surfels && a.links <= b.links && a.lightmapCaches <= b.lightmapCaches &&
            a.texelsPerMetre <= b.texelsPerMetre && !(a == b);
+}
+
+/// The settings of a sweep that are counts, which cost and error depend on most.
+SettingsSweep countsIn(const SettingsSweep& sweep) {
+    SettingsSweep counts;
+    for (const char* key : {"surfels", "links", "lightmapCaches", "texelsPerMetre"})
+        if (const auto values = sweep.find(key); values != sweep.end())
+            counts.insert(*values);
+    return counts;
 }
 
 /// Settings and what they are expected to cost.
@@ -218,7 +215,7 @@ TrialFigures BudgetFit::predicted(const BakeSettings& settings) const {
     const PrecomputedCost cost = expected(settings);
     const SettingsTrial& nearest =
         *std::ranges::min_element(m_fitted.trials, {}, [&](const SettingsTrial& trial) {
-            return distanceOf(trial.settings, settings);
+            return settingsDistance(trial.settings, settings);
         });
     const PrecomputedCost known = expected(nearest.settings);
     return {0, cost.updateMs * nearest.ms / known.updateMs,
@@ -251,12 +248,8 @@ BakeSettings BudgetFit::startSettings() const {
 
 /// The combinations of counts, and what they are expected to cost.
 std::vector<Expected> BudgetFit::expectedRows() const {
-    SettingsSweep counts;
-    for (const char* key : {"surfels", "links", "lightmapCaches", "texelsPerMetre"})
-        if (const auto values = m_sweep.find(key); values != m_sweep.end())
-            counts.insert(*values);
     std::vector<Expected> rows;
-    for (const BakeSettings& settings : sweepRows(counts, startSettings()))
+    for (const BakeSettings& settings : sweepRows(countsIn(m_sweep), startSettings()))
         rows.push_back({settings, predicted(settings)});
     return rows;
 }
@@ -322,7 +315,14 @@ std::vector<std::size_t> BudgetFit::neighbours(std::size_t candidate) {
     std::vector<std::size_t> numbers;
     const BakeSettings from = m_candidates[candidate];
     const TrialFigures here = predicted(from);
-    for (const BakeSettings& settings : neighboursIn(m_sweep, from)) {
+    std::vector<BakeSettings> around = neighboursIn(m_sweep, from);
+    // More of one count for less of another.
+    const SettingsSweep counts = countsIn(m_sweep);
+    for (const BakeSettings& step : neighboursIn(counts, from))
+        for (const BakeSettings& settings : neighboursIn(counts, step))
+            if (isSmaller(from, step) && !isSmaller(from, settings) && !(settings == from))
+                around.push_back(settings);
+    for (const BakeSettings& settings : around) {
         const TrialFigures there = predicted(settings);
         // What costs exactly as much is the same bake, such as one of bands that nothing reads.
         const bool same = there.ms == here.ms && there.bytes == here.bytes;

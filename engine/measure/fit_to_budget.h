@@ -26,7 +26,7 @@ struct SettingsTrial {
 struct BudgetGoal {
     SearchGoal limits;
     Camera camera;        ///< whose visible points are compared
-    double seconds = 300; ///< for all measurements, about; at least one is made at each level
+    double seconds = 270; ///< for all measurements, about; at least one is made at each level
 };
 
 /// Settings that were found, and what was measured on the way.

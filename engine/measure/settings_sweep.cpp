@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <type_traits>
 
@@ -51,6 +52,16 @@ std::vector<BakeSettings> neighboursIn(const SettingsSweep& sweep, const BakeSet
             neighbours.push_back(*(here + 1));
     }
     return neighbours;
+}
+
+double settingsDistance(const BakeSettings& a, const BakeSettings& b) {
+    const auto octaves = [](double x, double y) {
+        return x > 0 && y > 0 ? std::abs(std::log2(x / y)) : x == y ? 0 : 1;
+    };
+    return octaves(a.surfels, b.surfels) + octaves(a.links, b.links) +
+           octaves(a.lightmapCaches, b.lightmapCaches) + octaves(a.rays, b.rays) +
+           octaves(a.texelsPerMetre, b.texelsPerMetre) + (a.bands != b.bands) +
+           (a.storage != b.storage) + (a.chromaBands != b.chromaBands) + (a.cut != b.cut);
 }
 
 std::string settingsName(const BakeSettings& settings) {

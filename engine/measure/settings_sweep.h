@@ -21,6 +21,10 @@ std::vector<BakeSettings> sweepRows(const SettingsSweep& sweep, const BakeSettin
 /// values.
 std::vector<BakeSettings> neighboursIn(const SettingsSweep& sweep, const BakeSettings& row);
 
+/// How unlike settings are: the sum over the counts of the absolute log2 of their ratios, and 1 for
+/// each other setting that costs and errors depend on and that differs.
+double settingsDistance(const BakeSettings& a, const BakeSettings& b);
+
 /// The settings that differ from those of the default, "surfels 16384, links 32"; "default" if none
 /// does.
 std::string settingsName(const BakeSettings& settings);

@@ -112,6 +112,70 @@ TEST_F(BakePanel, ABakeUntilTheErrorHoldsCanBeCancelled) {
     EXPECT_EQ(state.document, before);
 }
 
+TEST_F(BakePanel, FitsSettingsToABudgetAsOneEdit) {
+    state.view.camera = chooseCamera(*session.scene(), {});
+    state.budgetMs = 500;
+    state.budgetMiB = 6;
+    state.budgetSeconds = 1; // the least number of trials
+    const BakeSettings before = settings();
+    EXPECT_TRUE(state.measuredErrors.empty());
+    runAction(state, actionById("bake.budget"));
+    ASSERT_TRUE(runUntil(session, [&] { return state.bake.fitting && !state.bake.step.empty(); }));
+    ASSERT_TRUE(runUntil(session, [&] { return !state.bake.goal.empty(); })) << state.bake.error;
+    ASSERT_TRUE(upToDate()) << "no other bake follows";
+    EXPECT_EQ(settings(), session.baked().bake->settings());
+    EXPECT_NE(state.bake.goal.find("error of 0."), std::string::npos) << state.bake.goal;
+    EXPECT_LE(state.bake.measured.bytes, 6 * (1 << 20));
+    const MeasuredError* known = nearestError(state.measuredErrors, settings());
+    ASSERT_NE(known, nullptr);
+    EXPECT_EQ(known->settings, settings()) << "the error of what was found is known";
+    ASSERT_EQ(state.history.edits.size(), 1U);
+    EXPECT_EQ(state.history.edits.back().label, "Fit to budget");
+    undoEdit(state);
+    EXPECT_EQ(settings(), before);
+}
+
+TEST_F(BakePanel, AFitThatKeepsNoBudgetOrIsCancelledChangesNothing) {
+    state.view.camera = chooseCamera(*session.scene(), {});
+    state.budgetMs = 1e-6f;
+    state.budgetSeconds = 1;
+    const auto bake = session.baked().bake;
+    const Document before = state.document;
+    runAction(state, actionById("bake.budget"));
+    ASSERT_TRUE(runUntil(session, [&] { return !state.bake.error.empty() && session.idle(); }));
+    EXPECT_NE(state.bake.error.find("ms, not"), std::string::npos) << state.bake.error;
+    EXPECT_EQ(session.baked().bake, bake);
+    EXPECT_EQ(state.document, before);
+    state.budgetMs = 5;
+    state.budgetSeconds = 270;
+    runAction(state, actionById("bake.budget"));
+    ASSERT_TRUE(runUntil(session, [&] { return state.bake.running && !state.bake.stage.empty(); }));
+    runAction(state, actionById("bake.cancel"));
+    ASSERT_TRUE(runUntil(session, [&] { return session.idle(); }));
+    EXPECT_EQ(state.bake.error, "cancelled");
+    EXPECT_EQ(state.document, before);
+}
+
+TEST(MeasuredErrors, TheMostSimilarSettingsSayTheErrorIfTheyAreSimilarAtAll) {
+    BakeSettings s;
+    EXPECT_EQ(nearestError({}, s), nullptr);
+    std::vector<MeasuredError> errors(3, {s, 0.1});
+    errors[1] = {s, 0.2};
+    errors[1].settings.links *= 2;
+    errors[2] = {s, 0.3};
+    errors[2].settings.surfels /= 2;
+    errors[2].settings.links *= 2;
+    EXPECT_EQ(nearestError(errors, s), &errors[0]);
+    s.links *= 3;
+    EXPECT_EQ(nearestError(errors, s), &errors[1]);
+    s.links *= 2;
+    EXPECT_EQ(nearestError(errors, s), &errors[1]) << "one and a half doublings";
+    s.lightmapCaches *= 2;
+    EXPECT_EQ(nearestError(errors, s), nullptr);
+    errors.push_back({errors[1].settings, 0.4});
+    EXPECT_EQ(nearestError(errors, errors[1].settings), &errors[3]) << "the newest";
+}
+
 TEST_F(BakePanel, IsDrawnWithEveryState) {
     HeadlessUi ui;
     for (const auto& [id, object] : state.document.objects)
