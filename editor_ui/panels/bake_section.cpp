@@ -102,10 +102,6 @@ static void budgetRows(EditorState& state) {
                "Maximum memory of the bake and of what updates read and write beside it [MiB]");
     ImGui::DragFloat("##budgetMiB", &state.budgetMiB, 0.2f, 1, 65536, "%.1f",
                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-    if (state.bake.running) {
-        actionButton(state, "bake.cancel");
-        return;
-    }
     actionButton(state, "bake.budget");
     wrappedTooltip("Measures settings for up to five minutes and takes those whose light, as this "
                    "view shows it, has the least error within both limits. One edit, which can "

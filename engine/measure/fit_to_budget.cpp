@@ -19,14 +19,15 @@ namespace limn {
 
 namespace {
 
-/// Effort of a level.
+/// Effort of a level. Many points with few paths tell more than few points with many, at the same
+/// cost: where light falls in spots, most of the error lies in few places.
 struct Level {
     TruthSize truth;
     int runs;
     double until; ///< share of the time at which its trials end
 };
 constexpr std::array<Level, 3> kLevels = {
-    {{{64, 36, 32}, 3, 0.5}, {{96, 54, 32}, 5, 0.65}, {{96, 54, 64}, 9, 1}}};
+    {{{128, 72, 8}, 3, 0.5}, {{192, 108, 16}, 5, 0.65}, {{256, 144, 16}, 9, 1}}};
 constexpr std::size_t kMostFirst = 20, kFewestFirst = 4; ///< candidates of level 0
 
 /// Whether no count of `a` exceeds that of `b`, and one is less.

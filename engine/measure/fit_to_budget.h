@@ -48,11 +48,11 @@ std::string shortfall(const FittedSettings& fitted, const SearchGoal& limits);
 /// Finds the settings of `sweep`, starting from the scene's, that serve the goal best. One bake
 /// with the counts of draft predicts what all others cost (Precomputed::expectedCost()), which
 /// rules out most. Of those that are left, and than which none larger is predicted to keep the
-/// limits, some are measured by successiveHalving(): at level 0 with 48 x 27 points, 32 paths and 3
-/// updates, at the last level as bakeToError() does, with 96 x 54 points and 64 paths, and 9
-/// updates. `tried` is called with each trial. Fails as Precomputation::prepare() does,
-/// where the camera sees no light, and when cancelled ("cancelled"). Precondition: `technique`
-/// precomputes.
+/// limits, some are measured by successiveHalving(): at level 0 with 128 x 72 points, 8 paths and 3
+/// updates, at the last level with 256 x 144 points, 16 paths and 9 updates. Errors are estimates
+/// of what bakeToError() estimates from fewer points. `tried` is called with each trial. Fails as
+/// Precomputation::prepare() does, where the camera sees no light, and when cancelled
+/// ("cancelled"). Precondition: `technique` precomputes.
 Result<FittedSettings> fitToBudget(const Technique& technique, const TraceScene& trace,
                                    const SettingsSweep& sweep, const BudgetGoal& goal,
                                    const Progress& progress = {}, const MemoryBudget& memory = {},

@@ -75,9 +75,14 @@ std::vector<BakeSettings> frontSettings(const FrontBench& o) {
             std::ranges::find(rows, s) == rows.end())
             rows.push_back(s);
     }
-    // Those which have too few bands for their colour are others that have fewer colours.
-    std::erase_if(rows, [](const BakeSettings& s) { return s.chromaBands > s.bands; });
-    return rows;
+    // All bands have colour with 0 chroma bands, with as many as there are, and with more.
+    std::vector<BakeSettings> distinct;
+    for (BakeSettings s : rows) {
+        s.chromaBands = chromaBandsOf(s) == s.bands ? 0 : s.chromaBands;
+        if (std::ranges::find(distinct, s) == distinct.end())
+            distinct.push_back(s);
+    }
+    return distinct;
 }
 
 std::string presetOf(const BakeSettings& settings) {
