@@ -45,10 +45,11 @@ std::optional<ReferenceSet> keptReference(const std::string& folder, const Front
     return set;
 }
 
-/// Makes every surface a metal of its own colour.
-void makeMetal(Scene& scene, float roughness) {
+/// Makes every surface half a metal of its own colour. The other half is diffuse, so that light
+/// bounces on.
+void makeGlossy(Scene& scene, float roughness) {
     for (Material& material : scene.materials) {
-        material.metallic = 1;
+        material.metallic = 0.5f;
         material.roughness = roughness;
         material.metallicRoughnessTexture = {};
     }
@@ -66,22 +67,22 @@ Result<FrontScene> openFrontScene(const SceneOptions& options, const FrontView& 
     const Result<Camera> camera = chooseCamera(front.scene, view.camera);
     if (!camera)
         return tl::make_unexpected(camera.error());
-    if (view.metal)
-        makeMetal(front.scene, *view.metal);
+    if (view.glossy)
+        makeGlossy(front.scene, *view.glossy);
     front.trace = std::make_unique<TraceScene>(front.scene);
-    front.view = {.view = view.metal ? View::Lit : View::Irradiance,
+    front.view = {.view = view.glossy ? View::Lit : View::Irradiance,
                   .camera = *camera,
                   .width = view.camera.width,
                   .height = view.camera.height,
                   .samplesPerPixel = std::max(view.samplesPerPixel / 2, 1U)};
     const Camera& c = *camera;
     front.key = fmt::format(
-        "{}; scene {}; metal {}; eye {} {} {}, target {} {} {}, up {} {} {}, fov {}; {} x {}, {} "
+        "{}; scene {}; glossy {}; eye {} {} {}, target {} {} {}, up {} {} {}, fov {}; {} x {}, {} "
         "samples",
         programVersion(), hexHash(contentHash(*imported, front.scene)),
-        view.metal ? fmt::format("{}", *view.metal) : "none", c.eye.x, c.eye.y, c.eye.z, c.target.x,
-        c.target.y, c.target.z, c.up.x, c.up.y, c.up.z, c.fovY, front.view.width, front.view.height,
-        view.samplesPerPixel);
+        view.glossy ? fmt::format("{}", *view.glossy) : "none", c.eye.x, c.eye.y, c.eye.z,
+        c.target.x, c.target.y, c.target.z, c.up.x, c.up.y, c.up.z, c.fovY, front.view.width,
+        front.view.height, view.samplesPerPixel);
     if (std::optional<ReferenceSet> kept = keptReference(folder, front)) {
         front.truth = std::move(*kept);
         return front;

@@ -18,9 +18,9 @@ namespace limn {
 struct FrontView {
     CameraOptions camera{.width = 320, .height = 180};
     std::uint32_t samplesPerPixel = 64; ///< of each of a scene's two references
-    /// Roughness of the metal that all surfaces become, [0, 1]; none: they stay as they are, and
-    /// errors are those of irradiance. Else they are those of the lit picture.
-    std::optional<float> metal;
+    /// Roughness of the metal that half of each surface becomes, [0, 1]; none: they stay as they
+    /// are, and errors are those of irradiance. Else they are those of the lit picture.
+    std::optional<float> glossy;
 };
 
 /// A scene of `limn bench front` with its reference.

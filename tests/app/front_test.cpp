@@ -68,6 +68,11 @@ TEST(FrontClaims, AskForRowsWithSixBandsAndMore) {
     EXPECT_EQ(limn::littleGainAboveSixBands({row(9, 9, 1, 1, 0.2, 6, 6), diffuse}).verdict,
               PaperClaim::Verdict::Unknown)
         << "nothing reads the two further bands";
+    EXPECT_EQ(
+        limn::littleGainAboveSixBands({row(9, 9, 1, 1, 0.2, 6, 6), row(9, 9, 2, 1, 0.2, 8, 8)})
+            .verdict,
+        PaperClaim::Verdict::Unknown)
+        << "the picture shows none of them";
 }
 
 TEST(FrontClaims, CompressionPaysWhereItSavesMoreTimeThanItAddsError) {
@@ -155,8 +160,8 @@ TEST_F(CommandLine, BenchFrontRefusesHostileValuesByName) {
           {" --bands 9", "--bands"},
           {" --storage zip", "--storage"},
           {" --lightmap ,", "--lightmap"},
-          {" --metal 2", "--metal"},
-          {" --metal nan", "--metal"},
+          {" --glossy 2", "--glossy"},
+          {" --glossy nan", "--glossy"},
           {" --presets best", "--presets"},
           {" --spp 0", "--spp"},
           {" --runs -1", "--runs"},

@@ -306,8 +306,8 @@ void addFrontBench(Command& bench) {
             "noise does not count; 0: none")
         .within(0, 1 << 16);
     command
-        .option("--metal", o->view.metal,
-                "Make every surface a metal of this roughness, and measure the lit picture")
+        .option("--glossy", o->view.glossy,
+                "Make every surface half a metal of this roughness, and measure the lit picture")
         .within(0.05, 1.);
     command.option("--runs", o->runs, "Number of timed updates; the least time counts")
         .within(1, 100000);
