@@ -15,6 +15,9 @@ namespace limn {
 /// share of it.
 inline constexpr std::uint32_t kLightPoints = 4;
 
+/// Area of a surfel that stands for none because others are nearer to all of its surface [m^2].
+inline constexpr float kLeastSurfelArea = 1e-30f;
+
 /// Sample points of the static surfaces that stand for all bounced light. Structure of arrays,
 /// world space.
 struct Surfels {

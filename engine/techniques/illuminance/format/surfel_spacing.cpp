@@ -4,38 +4,47 @@
 #include "engine/core/parallel.h"
 #include "engine/math/nearest_point.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
 namespace limn {
 
-/// Fills ratio[begin, end) for the surfels of one instance; < 0 where there is no neighbour.
-static void fillRatios(const Surfels& s, std::size_t begin, std::size_t end,
+/// Fills the ratios of the surfels of one instance; they stay < 0 where there is no neighbour.
+static void fillRatios(const Surfels& s, std::span<const std::uint32_t> surfels,
                        std::vector<float>& ratio) {
-    const std::span<const glm::vec3> points(s.position.data() + begin, end - begin),
-        normals(s.normal.data() + begin, end - begin);
+    std::vector<glm::vec3> points, normals;
     double area = 0;
-    for (std::size_t i = begin; i < end; ++i)
-        area += s.area[i];
-    const NearestPoint nearest(points, normals, float(std::sqrt(area / double(end - begin))));
-    parallelRanges(end - begin, 256, [&](std::size_t first, std::size_t last) {
+    for (const std::uint32_t surfel : surfels) {
+        points.push_back(s.position[surfel]);
+        normals.push_back(s.normal[surfel]);
+        area += s.area[surfel];
+    }
+    const NearestPoint nearest(points, normals, float(std::sqrt(area / double(surfels.size()))));
+    parallelRanges(surfels.size(), 256, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t other = nearest.findOther(std::uint32_t(i));
-            if (other != ~0U && glm::dot(normals[other], normals[i]) > 0)
-                ratio[begin + i] =
-                    glm::length(points[other] - points[i]) / hexagonalSpacing(s.area[begin + i]);
+            if (other != ~0U && s.area[surfels[i]] > kLeastSurfelArea &&
+                glm::dot(normals[other], normals[i]) > 0)
+                ratio[surfels[i]] =
+                    glm::length(points[other] - points[i]) / hexagonalSpacing(s.area[surfels[i]]);
         }
     });
 }
 
 SurfelSpacing surfelSpacing(const Surfels& surfels) {
     std::vector<float> ratio(surfels.size(), -1.f);
-    for (std::size_t begin = 0, end = 0; begin < surfels.size(); begin = end) {
-        while (end < surfels.size() && surfels.instance[end] == surfels.instance[begin])
+    std::vector<std::uint32_t> order(surfels.size()); // by instance
+    std::iota(order.begin(), order.end(), 0U);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t s) { return surfels.instance[s]; });
+    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+        while (end < order.size() && surfels.instance[order[end]] == surfels.instance[order[begin]])
             ++end;
-        fillRatios(surfels, begin, end, ratio);
+        fillRatios(surfels, std::span(order).subspan(begin, end - begin), ratio);
     }
     SurfelSpacing result;
     double sum = 0, squares = 0;

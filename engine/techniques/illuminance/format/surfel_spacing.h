@@ -19,7 +19,7 @@ inline float hexagonalSpacing(float area) {
 struct SurfelSpacing {
     double mean = 0;         ///< of that ratio [1]
     double spread = 0;       ///< its standard deviation / mean [1]
-    std::uint64_t count = 0; ///< surfels that have a neighbour
+    std::uint64_t count = 0; ///< surfels that have a neighbour and an area
 };
 
 /// Measures how evenly surfels are spread. Neighbours are surfels of the same instance whose

@@ -39,7 +39,7 @@ std::vector<float> ownedAreas(const Scene& scene, const SurfelSet& set, const Ow
         forOwnedCells(scene, owners, instance,
                       [&](const OwnedCell& cell) { sum[cell.surfel - first] += cell.area; });
         for (std::size_t s = 0; s < sum.size(); ++s)
-            result[first + s] = std::max(float(sum[s]), 1e-30f);
+            result[first + s] = std::max(float(sum[s]), kLeastSurfelArea);
     });
     return result;
 }

@@ -259,7 +259,7 @@ void appendInstance(const Scene& scene, std::uint32_t index, const MeshSurfels& 
         const float stretch = glm::length(n);
         out.position.push_back(instance.toWorld * glm::vec4(local.position[i], 1));
         out.normal.push_back(stretch > 0 ? n / stretch : glm::vec3(0, 1, 0));
-        out.area.push_back(std::max(float(double(areaOf(i) * stretch) * exact), 1e-30f));
+        out.area.push_back(std::max(float(double(areaOf(i) * stretch) * exact), kLeastSurfelArea));
         out.instance.push_back(index);
         out.triangle.push_back(local.triangle[i]);
         out.barycentric.push_back(local.barycentric[i]);

@@ -148,6 +148,17 @@ TEST(SurfelSpacing, KnowsAHexagonalLatticeAndRandomPoints) {
     // Mean 1 / (2 sqrt(density)), deviation sqrt((4 - pi) / pi) of it; the square's rim adds some.
     EXPECT_NEAR(poisson.mean, 0.5 / std::sqrt(2 / std::sqrt(3.0)), 0.01);
     EXPECT_NEAR(poisson.spread, std::sqrt(4 / std::numbers::pi - 1), 0.02);
+    // Whatever the order of instances, and beside a surfel that stands for no area.
+    Surfels mixed;
+    for (std::size_t i = 0; i < lattice.size(); ++i) {
+        add(mixed, lattice.position[i].x, lattice.position[i].y, lattice.area[i]);
+        add(mixed, lattice.position[i].x, lattice.position[i].y, lattice.area[i]);
+        mixed.instance.back() = 1;
+    }
+    add(mixed, -1, 0, limn::kLeastSurfelArea);
+    EXPECT_EQ(surfelSpacing(mixed).count, 2 * hexagonal.count);
+    EXPECT_NEAR(surfelSpacing(mixed).mean, hexagonal.mean, 1e-4);
+    EXPECT_NEAR(surfelSpacing(mixed).spread, 0, 1e-3);
 }
 
 TEST(Placement, RelaxedIsMoreEvenThanHaltonThanRandom) {
