@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/bench.h"
 #include "app/bench/bench_techniques.h"
+#include "app/papers/bench_papers.h"
 #include "app/techniques/technique_program.h"
 
 #include "engine/core/replace_file.h"
@@ -78,6 +79,7 @@ Exit writeRows(const Json& rows, const std::string& folder, const std::string& n
 void addBenchCommand(Command& app) {
     Command bench = app.addCommand("bench", "Run a benchmark and write its table");
     bench.requireCommand();
+    addPapersBench(bench);
     addTechniquesBench(bench);
     for (const TechniqueProgram* program : techniquePrograms())
         program->addBenches(bench);

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "app/bench/moving_lights.h"
 #include "app/techniques/illuminance/bench_bakes.h"
+#include "app/techniques/illuminance/frame_times.h"
 #include "app/techniques/illuminance/illuminance_program.h"
 
 #include "engine/files/relight_choice.h"
-#include "engine/gpu/device.h"
 #include "engine/lighting/fastest_update.h"
-#include "engine/techniques/illuminance/gpu/viewport_relighter.h"
-#include "engine/techniques/illuminance/relight/seen_caches.h"
-
-#include <chrono>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -32,19 +28,6 @@ struct FrameBench {
     bool json = false;
 };
 
-/// Times of a frame: GPU times of passes, except for relighting on the CPU [ms].
-struct FrameTimes {
-    double shadowMaps = 0;
-    double lightsOnSurfels = 0; ///< from shadow maps, or by rays on the CPU
-    double surfels = 0, pull = 0, caches = 0, field = 0;
-    double upload = 0; ///< of the field where it comes from the CPU
-    double geometry = 0, indirect = 0, direct = 0, tonemap = 0;
-    double perLight = 0; ///< shadow maps and lights on surfels over the lights
-    double total = 0;    ///< of the clock on the wall
-    std::uint32_t cachesUnseen = 0;
-    std::uint32_t bandsLit = 0; ///< of the bake's, those that some surface needs
-};
-
 struct Pass {
     const char* name;
     double FrameTimes::*ms;
@@ -63,72 +46,23 @@ constexpr Pass kPasses[] = {{"shadow_maps", &FrameTimes::shadowMaps},
                             {"per_light", &FrameTimes::perLight},
                             {"", &FrameTimes::total}};
 
-/// A viewport with bounced light from one device or the other.
-struct FrameScene {
-    gpu::Device& device;
-    Viewport viewport{device};
-    ViewportOptions options;
-    const TraceScene& trace;
-    std::unique_ptr<Relighter> cpu;
-    std::unique_ptr<ViewportRelighter> gpu; ///< null: `cpu` is not
-    std::optional<CacheFlags> seen;         ///< caches to light; none: all
-
-    FrameTimes draw(const Scene& lit, std::uint32_t bounces);
-};
-
-FrameTimes FrameScene::draw(const Scene& lit, std::uint32_t bounces) {
-    const auto start = std::chrono::steady_clock::now();
-    viewport.setLighting(lit);
-    const CacheFlags* wanted = seen ? &*seen : nullptr;
-    const RelightStats light = gpu ? gpu->relight(viewport, lit, bounces, {}, wanted)
-                                   : cpu->relight(lit, trace, bounces, {}, wanted);
-    if (cpu)
-        viewport.setIndirect(cpu->field());
-    viewport.render(options);
-    device.waitIdle();
-    const std::chrono::duration<double, std::milli> total =
-        std::chrono::steady_clock::now() - start;
-    const ViewportStats& drawn = viewport.stats();
-    FrameTimes t;
-    t.shadowMaps = drawn.shadowMs + (gpu ? drawn.relightShadowMs : 0);
-    t.lightsOnSurfels = light.directMs - (gpu ? drawn.relightShadowMs : 0);
-    t.surfels = light.surfelLightMs + light.surfelReadMs;
-    t.pull = light.pullMs;
-    t.caches = light.cacheLightMs;
-    t.field = light.fieldMs;
-    t.upload = drawn.uploadMs;
-    t.geometry = drawn.geometryMs;
-    t.indirect = drawn.indirectMs;
-    t.direct = drawn.directMs;
-    t.tonemap = drawn.tonemapMs;
-    if (!lit.lights.empty())
-        t.perLight = (t.shadowMaps + t.lightsOnSurfels) / double(lit.lights.size());
-    t.total = total.count();
-    t.cachesUnseen = light.cachesUnseen;
-    t.bandsLit = light.bandsLit;
-    return t;
-}
-
-Json describe(const FrameBench& o, const BenchBake& baked, const FrameScene& frame,
-              const Scene& scene, const std::vector<FrameTimes>& frames) {
-    const ViewportStats& stats = frame.viewport.stats();
-    Json row = {{"name", baked.name},
-                {"device", frame.device.properties.deviceName},
-                {"relight", frame.gpu ? "gpu" : "cpu"},
-                {"view", o.view},
-                {"width", frame.options.width},
-                {"height", frame.options.height}};
+Json describe(const FrameBench& o, const BenchBake& baked, const FrameOptions& options,
+              const DrawnFrames& drawn, std::size_t lights) {
+    const std::vector<FrameTimes>& frames = drawn.frames;
+    Json row = {
+        {"name", baked.name}, {"device", drawn.device}, {"relight", options.onGpu ? "gpu" : "cpu"},
+        {"view", o.view},     {"width", options.width}, {"height", options.height}};
     row.update(settingsOf(baked));
-    row.update({{"lights", scene.lights.size()},
-                {"lights_left_out", stats.lightsLeftOut},
+    row.update({{"lights", lights},
+                {"lights_left_out", drawn.lightsLeftOut},
                 {"coarse_shadows", o.coarse},
                 {"bounces", o.bounces},
-                {"caches_lit", frame.seen ? "seen" : "all"},
+                {"caches_lit", options.seenOnly ? "seen" : "all"},
                 {"caches_unseen", frames.back().cachesUnseen},
                 {"bands_lit", frames.back().bandsLit},
                 {"frames", frames.size()},
-                {"geometry_drawn", stats.geometryDrawn - 1}, // but for the first
-                {"bytes", stats.gpuBytes}});
+                {"geometry_drawn", drawn.geometryDrawn},
+                {"bytes", drawn.bytes}});
     for (const Pass& pass : kPasses) {
         std::vector<double> ms;
         for (const FrameTimes& t : frames)
@@ -167,9 +101,8 @@ glm::vec3 across(const Camera& camera) {
     return glm::normalize(rayDirection(camera, 1, 1, 0) - rayDirection(camera, 1, 0, 0));
 }
 
-Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, gpu::Device& device,
-                           std::uint32_t lights, const std::string& relightOn,
-                           const std::string& caches) {
+Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, std::uint32_t lights,
+                           const std::string& relightOn, const std::string& caches) {
     Scene lit = baked.scene;
     if (lights > 0)
         lit.lights =
@@ -177,41 +110,28 @@ Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, gpu::Dev
     const Result<Camera> camera = chooseCamera(lit, o.camera);
     if (!camera)
         return tl::make_unexpected(camera.error());
-    FrameScene frame{.device = device, .trace = baked.trace};
-    frame.options.view = named<View>(kViewNames, o.view);
-    frame.options.camera = *camera;
-    frame.options.width = o.camera.width;
-    frame.options.height = o.camera.height;
-    if (relightOn == "gpu") {
-        auto made = ViewportRelighter::create(device, baked.bake);
-        if (!made)
-            return tl::make_unexpected(made.error());
-        frame.gpu = std::move(*made);
-    } else {
-        frame.cpu = std::make_unique<Relighter>(baked.bake);
-    }
-    if (caches == "seen")
-        frame.seen = seenCaches(cacheFootprints(lit, *baked.bake), *camera,
-                                float(o.camera.width) / float(o.camera.height));
-    frame.viewport.setCoarseShadows(o.coarse);
-    frame.viewport.setScene(lit, {baked.bake, &baked.bake->lightmap});
-    std::vector<FrameTimes> frames;
-    const std::vector<Light> standing = lit.lights;
-    for (int k = 0; k <= o.runs; ++k) {
-        lit.lights = movedLights(standing, k);
-        if (o.movingCamera) // a step to the side and back
-            frame.options.camera.eye = camera->eye + 0.1f * float(k % 2) * across(*camera);
-        const FrameTimes times = frame.draw(lit, o.bounces);
-        if (k > 0) // the first lights materials and makes pipelines too
-            frames.push_back(times);
-    }
-    return describe(o, baked, frame, lit, frames);
+    const FrameOptions options{.device = o.device,
+                               .view = named<View>(kViewNames, o.view),
+                               .width = o.camera.width,
+                               .height = o.camera.height,
+                               .onGpu = relightOn == "gpu",
+                               .seenOnly = caches == "seen",
+                               .coarseShadows = o.coarse,
+                               .bounces = o.bounces};
+    const Result<DrawnFrames> drawn =
+        drawFrames(options, baked.trace, baked.bake, o.runs, [&](int k) {
+            FrameScene shown{lit, *camera};
+            shown.scene.lights = movedLights(lit.lights, k);
+            if (o.movingCamera) // a step to the side and back
+                shown.camera.eye = camera->eye + 0.1f * float(k % 2) * across(*camera);
+            return shown;
+        });
+    if (!drawn)
+        return tl::make_unexpected(drawn.error());
+    return describe(o, baked, options, *drawn, lit.lights.size());
 }
 
 Exit runFrameBench(const FrameBench& o) {
-    const auto device = gpu::createDevice({.name = o.device});
-    if (!device)
-        return failed("--device: " + device.error().message);
     Json rows = Json::array();
     if (!o.json)
         printTitles(kFrameColumns);
@@ -219,7 +139,7 @@ Exit runFrameBench(const FrameBench& o) {
         for (const std::uint32_t lights : o.lights)
             for (const std::string& on : o.relightOn)
                 for (const std::string& caches : o.caches) {
-                    Result<Json> row = measureFrames(o, baked, **device, lights, on, caches);
+                    Result<Json> row = measureFrames(o, baked, lights, on, caches);
                     if (!row)
                         return tl::make_unexpected(row.error());
                     rows.push_back(std::move(*row));

@@ -3,6 +3,7 @@
 #include "app/techniques/illuminance/bench_relight_gpu.h"
 #include "app/techniques/illuminance/bench_shake.h"
 #include "app/techniques/illuminance/device_oracle.h"
+#include "app/techniques/illuminance/frame_times.h"
 #include "app/techniques/illuminance/illuminance_program.h"
 
 namespace limn {
@@ -25,6 +26,12 @@ Result<GpuRuns> relightOnGpu(const std::string& /*device*/, const TraceScene& /*
                              const std::shared_ptr<const Bake>& /*bake*/, LitBands /*wanted*/,
                              std::uint32_t /*bounces*/, int /*runs*/,
                              const std::function<Scene(int k)>& /*sceneAt*/) {
+    return fail(kNoVulkan);
+}
+
+Result<DrawnFrames> drawFrames(const FrameOptions& /*options*/, const TraceScene& /*trace*/,
+                               const std::shared_ptr<const Bake>& /*bake*/, int /*runs*/,
+                               const std::function<FrameScene(int k)>& /*sceneAt*/) {
     return fail(kNoVulkan);
 }
 

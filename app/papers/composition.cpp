@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "app/papers/composition.h"
+
+#include "app/commands/progress_line.h"
+#include "app/techniques/illuminance/bench_bakes.h"
+
+#include "engine/lighting/fastest_update.h"
+#include "engine/techniques/illuminance/bake/baker.h"
+#include "engine/techniques/illuminance/format/bake_bytes.h"
+
+#include <array>
+
+namespace limn {
+
+const PaperScene kPaperSponza = {.name = "Sponza",
+                                 .file = "sponza-crytek/Sponza.gltf",
+                                 .light = "sun dir=0.2,-1,-0.1 lux=20",
+                                 .eye = "7,2,-0.3",
+                                 .target = "-5,4,-0.3"};
+
+static BakeSettings settingsIn(LinkMode mode) {
+    BakeSettings settings;
+    settings.lightmapCaches = 10585;
+    if (mode == LinkMode::Paper)
+        settings.cut = CutCriterion::SolidAngle;
+    return settings;
+}
+
+BakeSettings paperSettings1(LinkMode mode) {
+    BakeSettings settings = settingsIn(mode);
+    settings.bands = 4;
+    settings.links = 254;
+    settings.surfels = 1 << 17;
+    return settings;
+}
+
+BakeSettings paperSettings2(LinkMode mode) {
+    BakeSettings settings = settingsIn(mode);
+    settings.bands = 3;
+    settings.links = 128;
+    settings.surfels = 1 << 15;
+    if (mode == LinkMode::Paper)
+        settings.linker = Linker::FormFactor;
+    return settings;
+}
+
+const char* nameOf(LinkMode mode) {
+    return mode == LinkMode::Paper ? "paper's links" : "Limn's links";
+}
+
+Result<std::shared_ptr<const Bake>> bakeFor(PaperRun& run, const FrontScene& front,
+                                            const BakeSettings& settings) {
+    Result<Bake> made = bake(*front.trace, progressOnStderr(), &run.stages(), &settings);
+    if (!made)
+        return tl::make_unexpected(made.error());
+    return std::make_shared<const Bake>(std::move(*made));
+}
+
+std::vector<RelightStats> relightRuns(const FrontScene& front, std::shared_ptr<const Bake> bake,
+                                      int runs) {
+    Relighter relighter(std::move(bake), LitBands::All);
+    std::vector<RelightStats> stats;
+    for (int k = 0; k <= runs; ++k) {
+        const Scene moved = withMovedLights(front.scene, k);
+        const RelightStats once = relighter.relight(moved, *front.trace, 1);
+        if (k > 0)
+            stats.push_back(once);
+    }
+    return stats;
+}
+
+PaperFigure timeOf(const char* column, const std::vector<RelightStats>& runs,
+                   std::initializer_list<double RelightStats::*> steps,
+                   std::optional<double> printed) {
+    std::vector<double> ms;
+    for (const RelightStats& run : runs) {
+        double sum = 0;
+        for (double RelightStats::*step : steps)
+            sum += run.*step;
+        ms.push_back(sum);
+    }
+    const Spread spread = spreadOf(ms);
+    return {column, spread.median, spread.p95 - spread.median, printed};
+}
+
+double mebibytesOf(const Bake& bake, const RelightStats& stats) {
+    return double(bytesOf(bake).total() + stats.bytes) / (1 << 20);
+}
+
+std::span<const PaperExperiment> compositionExperiments() {
+    static constexpr const char* kCards = "GTX 980, 1920 x 1080";
+    static const std::array<PaperExperiment, 8> experiments = {
+        {{"T2", "Table 2: time of each step", "i7-4790S, 4 cores, and GTX 980; SH links",
+          "An update of one bounce of all bands, the sun moved. The paper's CPU lights surfels "
+          "from "
+          "a shadow map; ours traces a ray from four points of each surfel (direct), and reads the "
+          "bounced light of surfels back from caches (read), which the paper does on the card.",
+          &kPaperSponza, measureStepTimes},
+         {"5.3.1", "Section 5.3.1: resolution of the picture", kCards,
+          "Settings 1. Shading is direct and indirect light and tone mapping; drawing is the "
+          "geometry. On a software rasteriser the pictures have a third of the printed widths and "
+          "heights. All figures are of the device.",
+          &kPaperSponza, measureResolutions},
+         {"T3", "Table 3: bands of luminance and of chrominance", kCards,
+          "Y:C are the bands of luminance and of chrominance, settings 1, RTP. Printed times are "
+          "those of caches and shading together, ours of caches on the CPU. Errors are those of "
+          "the lit picture, half of each surface a metal of roughness 0.5.",
+          &kPaperSponza, measureChrominance},
+         {"T4", "Table 4: memory of the parts", "",
+          "Settings 1 unless the line says otherwise. Ours counts what a bake holds and all that "
+          "the updates of the CPU read and write beside it.",
+          &kPaperSponza, measureMemory},
+         {"F3", "Figure 3: placements of 30 000 surfels", "",
+          "Spread is the standard deviation of the distance to the nearest neighbour over its "
+          "mean; random points have 0.52, a hexagonal lattice 0. Settings 2 but for the surfels.",
+          &kPaperSponza, measurePlacements},
+         {"F8", "Figure 8: glossy surfaces", kCards,
+          "Half of each surface is a metal of roughness 0.5, which is a Blinn-Phong exponent of "
+          "30. Settings 1. Printed times are those of a frame, ours those of an update on the "
+          "CPU. Pictures show all light at twice the exposure.",
+          &kPaperSponza, measureGlossy},
+         {"F10", "Figure 10: number of surfels and of links", kCards,
+          "Settings 1, RTP. Errors are those of irradiance.", &kPaperSponza, measureCounts},
+         {"F11", "Figure 11: number of bands", kCards,
+          "Settings 1. The paper prints RTP's times in its text.", &kPaperSponza, measureBands}}};
+    return experiments;
+}
+
+} // namespace limn
