@@ -85,6 +85,7 @@ static void addBenches(Command& bench) {
     addGlossyBench(bench);
     addLinksBench(bench);
     addPredictBench(bench);
+    addRegressionBench(bench);
     addRelightBench(bench);
     addStressBench(bench);
     addFrameBench(bench);

@@ -17,6 +17,7 @@ void addFrontBench(Command& bench);
 void addGlossyBench(Command& bench);
 void addLinksBench(Command& bench);
 void addPredictBench(Command& bench);
+void addRegressionBench(Command& bench);
 void addRelightBench(Command& bench);
 void addStressBench(Command& bench);
 
