@@ -5,6 +5,7 @@
 
 #include "engine/measure/compare.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -18,6 +19,14 @@ double distanceOf(const ImageF& a, const ImageF& b) {
     for (std::size_t p = 0; p < a.rgb.size(); ++p)
         sum += double(glm::dot(a.rgb[p] - b.rgb[p], a.rgb[p] - b.rgb[p]));
     return sum > 0 ? std::sqrt(sum / (3 * double(a.rgb.size()))) / meanOf(b) : 0;
+}
+
+double largestDifference(const ImageF& a, const ImageF& b) {
+    double maximum = 0;
+    for (std::size_t p = 0; p < a.rgb.size(); ++p)
+        for (int c = 0; c < 3; ++c)
+            maximum = std::max(maximum, std::abs(double(a.rgb[p][c]) - double(b.rgb[p][c])));
+    return maximum > 0 ? maximum / meanOf(b) : 0;
 }
 
 LiveLight::LiveLight(std::unique_ptr<Lighting> lighting, const Scene& scene,

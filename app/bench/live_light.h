@@ -17,6 +17,10 @@ namespace limn {
 /// rms(a - b) / mean(b) over pixels and channels; 0 for two black pictures.
 double distanceOf(const ImageF& a, const ImageF& b);
 
+/// Largest difference between two pictures of the same size, relative to the mean of `b`; 0 for two
+/// black ones.
+double largestDifference(const ImageF& a, const ImageF& b);
+
 /// How a technique follows its light as the editor drives it: one update a frame, of what the
 /// camera sees.
 class LiveLight {

@@ -74,16 +74,6 @@ void addErrors(const MeasuredScene& m, const ImageF& picture, const ImageF& lit,
     row["flip"] = seen.flip;
 }
 
-/// Largest difference between two pictures of the same size, relative to the mean of `b`; 0 for two
-/// black ones.
-double largestDifference(const ImageF& a, const ImageF& b) {
-    double maximum = 0;
-    for (std::size_t p = 0; p < a.rgb.size(); ++p)
-        for (int c = 0; c < 3; ++c)
-            maximum = std::max(maximum, std::abs(double(a.rgb[p][c]) - double(b.rgb[p][c])));
-    return maximum > 0 ? maximum / meanOf(b) : 0;
-}
-
 } // namespace
 
 Result<Configuration> configure(const MeasuredScene& m, const Technique& technique, Variant variant,

@@ -39,6 +39,7 @@ static std::vector<BakeSettings> sweep(const BenchBakes& o) {
     BakeSettings s;
     s.rays = o.rays;
     s.lightmapCaches = o.lightmap;
+    s.grid = o.grid;
     for (const std::uint32_t surfels : o.surfels)
         for (const std::uint32_t links : o.links)
             for (const std::string& storage : o.storages)

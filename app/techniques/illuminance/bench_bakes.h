@@ -13,6 +13,7 @@
 #include <memory>
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 namespace limn {
@@ -25,7 +26,8 @@ struct BenchBakes {
     std::vector<std::uint32_t> chromaBands = {0}; ///< 0: as many as bands
     std::vector<std::string> storages = {"rtp", "sh"};
     std::uint32_t rays = 1024, lightmap = 10000;
-    int threads = 0; ///< 0: all
+    glm::uvec3 grid{0}; ///< as BakeSettings::grid; no option sets it
+    int threads = 0;    ///< 0: all
 };
 /// Adds the options to `command`. Returns the option of the scenes, which is required.
 Option addBenchBakes(Command& command, BenchBakes& options);

@@ -87,6 +87,7 @@ static void addBenches(Command& bench) {
     addPredictBench(bench);
     addRegressionBench(bench);
     addRelightBench(bench);
+    addSkipBench(bench);
     addStressBench(bench);
     addFrameBench(bench);
     addFrontBench(bench);

@@ -19,6 +19,7 @@ void addLinksBench(Command& bench);
 void addPredictBench(Command& bench);
 void addRegressionBench(Command& bench);
 void addRelightBench(Command& bench);
+void addSkipBench(Command& bench);
 void addStressBench(Command& bench);
 
 } // namespace limn
