@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/papers/paper_experiments.h"
+#include "app/papers/paper_view.h"
 
 #include "app/bench/light_place.h"
 #include "app/bench/moving_lights.h"
@@ -164,64 +165,77 @@ Result<void> measureStillSpots(PaperRun& run) {
     return measureSpots(run, "web-T2", false, kPrinted);
 }
 
-/// Tables 3 and 4, of a scene.
-Result<void> measureTechniques(PaperRun& run, const char* experiment, const PaperScene& where,
+/// Figures of a technique in a place: times of updates, seconds in advance, and errors.
+Result<PaperLine> measureTechnique(PaperRun& run, const PaperView& view, const char* experiment,
+                                   const std::string& name, const BrowserTechnique& wanted,
+                                   const LightPlace& place) {
+    const Result<const FrontScene*> front = openView(run, view);
+    if (!front)
+        return tl::make_unexpected(front.error());
+    const ReferenceOptions& shown = (*front)->view;
+    const TraceScene& trace = *(*front)->trace;
+    Scene scene = (*front)->scene;
+    scene.technique.technique = wanted.technique;
+    for (const auto& [key, value] : wanted.settings)
+        scene.technique.settings[key] = value;
+    const Result<BrowserLight> light = lightWith(place, trace, scene);
+    if (!light)
+        return tl::make_unexpected(light.error());
+    Lighting& lighting = *light->lighting;
+    const Viewpoint seen = viewpointOf(shown.camera, {shown.width, shown.height});
+    const int runs = std::min(run.options().runs, 5);
+    std::vector<PaperFigure> figures;
+    figures.push_back(timeUpdatesOf(
+        "on change [ms]", lighting, trace, runs, seen,
+        [&](int k) { return withMovedLights(scene, k); }, wanted.change));
+    lighting.update({.scene = scene,
+                     .trace = &trace,
+                     .bounces = scene.relight.maxBounces,
+                     .view = viewForAll(lighting, seen)},
+                    progressOnStderr());
+    figures.push_back(
+        timeUpdatesOf("idle [ms]", lighting, trace, runs, seen, [&](int) { return scene; }, {}));
+    if (wanted.idle)
+        figures.push_back({"frame, idle [ms]", std::nullopt, 0, wanted.idle});
+    if (light->seconds > 0)
+        figures.push_back({"in advance [s]", light->seconds, 0, wanted.seconds});
+    const ImageF picture = renderLight(trace, lighting, *light->prepared.layout,
+                                       {.view = shown.view,
+                                        .camera = shown.camera,
+                                        .width = shown.width,
+                                        .height = shown.height,
+                                        .samplesPerPixel = kPaperPictureSamples});
+    const Result<Comparison> error = compareImages(picture, (*front)->truth);
+    if (!error)
+        return tl::make_unexpected(error.error());
+    figures.push_back(errorFigure(*error));
+    figures.push_back(biasFigure(*error));
+    return withPicture(run, view, experiment, name, picture, std::move(figures));
+}
+
+/// Techniques in a view, wherever they can light, after the reference.
+Result<void> measureTechniques(PaperRun& run, const char* experiment, const PaperView& view,
                                std::span<const BrowserTechnique> techniques) {
     const Result<std::vector<LightPlace>> places = placesOf(run);
     if (!places)
         return tl::make_unexpected(places.error());
-    const int runs = std::min(run.options().runs, 5);
+    if (const Result<void> added = addReference(run, view, experiment); !added)
+        return added;
     for (const BrowserTechnique& wanted : techniques)
         for (const LightPlace& place : *places) {
-            const auto measure = [&]() -> Result<PaperLine> {
-                const Result<const FrontScene*> front = run.scene(where);
-                if (!front)
-                    return tl::make_unexpected(front.error());
-                const TraceScene& trace = *(*front)->trace;
-                Scene scene = (*front)->scene;
-                scene.technique.technique = wanted.technique;
-                for (const auto& [key, value] : wanted.settings)
-                    scene.technique.settings[key] = value;
-                const Result<BrowserLight> light = lightWith(place, trace, scene);
-                if (!light)
-                    return tl::make_unexpected(light.error());
-                Lighting& lighting = *light->lighting;
-                const Viewpoint view = viewpointOf((*front)->view.camera,
-                                                   {(*front)->view.width, (*front)->view.height});
-                PaperLine line;
-                line.figures.push_back(timeUpdatesOf(
-                    "on change [ms]", lighting, trace, runs, view,
-                    [&](int k) { return withMovedLights(scene, k); }, wanted.change));
-                lighting.update({.scene = scene,
-                                 .trace = &trace,
-                                 .bounces = scene.relight.maxBounces,
-                                 .view = viewForAll(lighting, view)},
-                                progressOnStderr());
-                line.figures.push_back(timeUpdatesOf("idle [ms]", lighting, trace, runs, view,
-                                                     [&](int) { return scene; }, {}));
-                line.figures.push_back({"frame, idle [ms]", std::nullopt, 0, wanted.idle});
-                line.figures.push_back({"in advance [s]", light->seconds, 0, wanted.seconds});
-                FieldRenderOptions picture{.view = (*front)->view.view,
-                                           .camera = (*front)->view.camera,
-                                           .width = (*front)->view.width,
-                                           .height = (*front)->view.height,
-                                           .samplesPerPixel = 16};
-                const Result<Comparison> error =
-                    compareImages(renderLight(trace, lighting, *light->prepared.layout, picture),
-                                  (*front)->truth);
-                if (!error)
-                    return tl::make_unexpected(error.error());
-                line.figures.push_back({"nRMSE", error->nrmse, error->nrmseNoise, {}});
-                line.figures.push_back({"bias [%]", 100 * error->bias, 100 * error->biasNoise, {}});
-                return line;
-            };
+            if (!place.lights(*findTechnique(wanted.technique)))
+                continue;
             const std::string name = fmt::format("{}, {}", wanted.name, nameOf(place));
-            if (place.lights(*findTechnique(wanted.technique)))
-                if (const Result<void> added = run.line(experiment, name, measure); !added)
-                    return added;
+            if (const Result<void> added = run.line(
+                    experiment, name,
+                    [&] { return measureTechnique(run, view, experiment, name, wanted, place); });
+                !added)
+                return added;
         }
     return {};
 }
+
+const PaperView kSponza{.scene = &kPaperSponza}, kLivingRoom{.scene = &kPaperLivingRoom};
 
 const std::vector<std::pair<std::string, double>> kLpv = {
     {"lpv.resolution", 32}, {"lpv.rounds", 16}, {"lpv.map_size", 512}};
@@ -231,8 +245,9 @@ Result<void> measureSponzaTechniques(PaperRun& run) {
         {"1, light field probes, 256", "probes", {{"probes.count", 256}}, 4.78, 13.70, {}},
         {"2, sparse probes", "sparse-probes", {}, 2.47, 4.57, 58. * 60},
         {"3, light propagation volumes", "lpv", kLpv, 2.44, 6.13, {}},
+        {"ambient light", "ambient", {}, {}, {}, {}},
         {"illuminance composition", "illuminance", {}, {}, {}, {}}};
-    return measureTechniques(run, "web-T3", kPaperSponza, techniques);
+    return measureTechniques(run, "web-T3", kSponza, techniques);
 }
 
 Result<void> measureLivingRoomTechniques(PaperRun& run) {
@@ -240,15 +255,47 @@ Result<void> measureLivingRoomTechniques(PaperRun& run) {
         {"1, light field probes, 36", "probes", {{"probes.count", 36}}, 5.81, 21.28, {}},
         {"2, sparse probes", "sparse-probes", {}, 1.86, 4.17, 58. * 60},
         {"3, light propagation volumes", "lpv", kLpv, 3.50, 6.71, {}},
+        {"ambient light", "ambient", {}, {}, {}, {}},
         {"illuminance composition", "illuminance", {}, {}, {}, {}}};
-    return measureTechniques(run, "web-T4", kPaperLivingRoom, techniques);
+    return measureTechniques(run, "web-T4", kLivingRoom, techniques);
+}
+
+/// Figure 17.
+Result<void> measureProbeBands(PaperRun& run) {
+    std::vector<std::string> names;
+    std::vector<BrowserTechnique> techniques;
+    for (const int bands : {1, 2, 3, 4, 8})
+        names.push_back(fmt::format("{} coefficients", bands * bands));
+    for (std::size_t k = 0; const double bands : {1., 2., 3., 4., 8.})
+        techniques.push_back({names[k++].c_str(),
+                              "sparse-probes",
+                              {{"sparse-probes.bands", bands}},
+                              {},
+                              {},
+                              bands == 8 ? std::optional(58. * 60) : std::nullopt});
+    return measureTechniques(run, "web-F17", kLivingRoom, techniques);
+}
+
+/// Figure 19.
+Result<void> measureRounds(PaperRun& run) {
+    std::vector<BrowserTechnique> techniques;
+    for (const auto& [name, rounds] :
+         {std::pair{"8 rounds", 8.}, {"16 rounds", 16.}, {"64 rounds", 64.}})
+        techniques.push_back(
+            {name,
+             "lpv",
+             {{"lpv.resolution", 32}, {"lpv.rounds", rounds}, {"lpv.map_size", 512}},
+             {},
+             {},
+             {}});
+    return measureTechniques(run, "web-F19", kSponza, techniques);
 }
 
 } // namespace
 
 std::span<const PaperExperiment> browserExperiments() {
     static constexpr const char* kCard = "GTX 780, i7-6700K, 1920 x 1080, Firefox 59";
-    static const std::array<PaperExperiment, 4> experiments = {
+    static const std::array<PaperExperiment, 6> experiments = {
         {{"web-T1", "Table 1: a sun and moving spots, light propagation volumes", kCard,
           "32 cells along the longest side, 16 rounds, maps of 512 x 512 texels. Printed times are "
           "those of frames, ours those of an update after all lights moved.",
@@ -263,7 +310,13 @@ std::span<const PaperExperiment> browserExperiments() {
           &kPaperSponza, measureSponzaTechniques},
          {"web-T4", "Table 4: the techniques in a living room", kCard,
           "As in Table 3. The room is another one, lit by a sun through its windows.",
-          &kPaperLivingRoom, measureLivingRoomTechniques}}};
+          &kPaperLivingRoom, measureLivingRoomTechniques},
+         {"web-F17", "Figure 17: coefficients of sparse probes", "a laptop of 2014, 4 x 2.6 GHz",
+          "In the living room. The paper takes 58 minutes in advance for 64 coefficients.",
+          &kPaperLivingRoom, measureProbeBands},
+         {"web-F19", "Figure 19: rounds of light propagation volumes", "",
+          "In Sponza, 32 cells along the longest side. The paper finds 16 rounds enough.",
+          &kPaperSponza, measureRounds}}};
     return experiments;
 }
 

@@ -50,7 +50,9 @@ Result<void> measureResolutions(PaperRun& run); // Section 5.3.1
 Result<void> measureChrominance(PaperRun& run); // Table 3
 Result<void> measureMemory(PaperRun& run);      // Table 4
 Result<void> measurePlacements(PaperRun& run);  // Figure 3
+Result<void> measureSigns(PaperRun& run);       // Figure 7
 Result<void> measureGlossy(PaperRun& run);      // Figure 8
+Result<void> measureSpot(PaperRun& run);        // Figure 9 (b)
 Result<void> measureCounts(PaperRun& run);      // Figure 10
 Result<void> measureBands(PaperRun& run);       // Figure 11
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/papers/composition.h"
+#include "app/papers/paper_view.h"
 
 #include "engine/measure/compare.h"
 #include "engine/picture/field_render.h"
@@ -15,8 +16,8 @@ namespace limn {
 
 namespace {
 
-constexpr float kRoughness = 0.5f;
-constexpr std::uint32_t kPictureSamples = 16; ///< per pixel
+const PaperView kSponzaView{.scene = &kPaperSponza};
+const PaperView kGlossyView{.scene = &kPaperSponza, .roughness = 0.5f, .stops = 1};
 
 /// A bake whose light has converged, its picture and the error of that.
 struct LitBake {
@@ -26,9 +27,8 @@ struct LitBake {
     Comparison error;
 };
 
-Result<LitBake> lightBake(PaperRun& run, const BakeSettings& settings,
-                          std::optional<float> roughness) {
-    const Result<const FrontScene*> front = run.scene(kPaperSponza, roughness);
+Result<LitBake> lightBake(PaperRun& run, const PaperView& view, const BakeSettings& settings) {
+    const Result<const FrontScene*> front = openView(run, view);
     if (!front)
         return tl::make_unexpected(front.error());
     const auto baked = bakeFor(run, **front, settings);
@@ -41,7 +41,7 @@ Result<LitBake> lightBake(PaperRun& run, const BakeSettings& settings,
                                      .camera = (*front)->view.camera,
                                      .width = (*front)->view.width,
                                      .height = (*front)->view.height,
-                                     .samplesPerPixel = kPictureSamples,
+                                     .samplesPerPixel = kPaperPictureSamples,
                                      .allBands = true};
     lit.picture = renderField(*(*front)->trace, relighter.field(), (*baked)->lightmap, options);
     const Result<Comparison> error = compareImages(lit.picture, (*front)->truth);
@@ -49,47 +49,6 @@ Result<LitBake> lightBake(PaperRun& run, const BakeSettings& settings,
         return tl::make_unexpected(error.error());
     lit.error = *error;
     return lit;
-}
-
-PaperFigure errorFigure(const Comparison& error) {
-    return {"nRMSE", error.nrmse, error.nrmseNoise, {}};
-}
-
-PaperFigure biasFigure(const Comparison& error) {
-    return {"bias [%]", 100 * error.bias, 100 * error.biasNoise, {}};
-}
-
-/// Exposure that shows the pictures of an experiment: the reference's mean becomes 0.18 [EV].
-Result<float> exposureOf(PaperRun& run, std::optional<float> roughness) {
-    const Result<const FrontScene*> front = run.scene(kPaperSponza, roughness);
-    if (!front)
-        return tl::make_unexpected(front.error());
-    return float(std::log2(0.18 / meanOf((*front)->truth.first())));
-}
-
-Result<PaperLine> withPicture(PaperRun& run, const char* experiment, const std::string& name,
-                              const ImageF& picture, std::optional<float> roughness, float stops,
-                              std::vector<PaperFigure> figures) {
-    const Result<float> exposure = exposureOf(run, roughness);
-    if (!exposure)
-        return tl::make_unexpected(exposure.error());
-    Result<std::string> file = run.keepPicture(experiment, name, picture, *exposure + stops);
-    if (!file)
-        return tl::make_unexpected(file.error());
-    return PaperLine{{}, std::move(figures), std::move(*file)};
-}
-
-/// The reference as a line of an experiment.
-Result<void> addReference(PaperRun& run, const char* experiment, std::optional<float> roughness,
-                          float stops) {
-    return run.line(experiment, "reference", [&]() -> Result<PaperLine> {
-        const Result<const FrontScene*> front = run.scene(kPaperSponza, roughness);
-        if (!front)
-            return tl::make_unexpected(front.error());
-        const ImageF truth = meanImage((*front)->truth.first(), (*front)->truth.second());
-        return withPicture(run, experiment, "reference", truth, roughness, stops,
-                           {{"noise of a pixel", noiseOf((*front)->truth), 0, {}}});
-    });
 }
 
 /// A line of Figure 8 before it is measured: storage, bands of luminance and of chrominance, and
@@ -128,10 +87,13 @@ BakeSettings glossySettings(LinkMode mode, LinkStorage storage, std::uint32_t ba
     return settings;
 }
 
+const PaperView kSignsView{.scene = &kPaperSigns};
+const PaperView kSpotView{.scene = &kPaperSpot};
+
 } // namespace
 
 Result<void> measureGlossy(PaperRun& run) {
-    if (const Result<void> added = addReference(run, "F8", kRoughness, 1); !added)
+    if (const Result<void> added = addReference(run, kGlossyView, "F8"); !added)
         return added;
     for (const LinkMode mode : kLinkModes)
         for (const GlossyLine& line : kGlossyLines) {
@@ -140,11 +102,11 @@ Result<void> measureGlossy(PaperRun& run) {
                             line.bands, line.chroma, nameOf(mode));
             const auto measure = [&]() -> Result<PaperLine> {
                 const Result<LitBake> lit = lightBake(
-                    run, glossySettings(mode, line.storage, line.bands, line.chroma), kRoughness);
+                    run, kGlossyView, glossySettings(mode, line.storage, line.bands, line.chroma));
                 if (!lit)
                     return tl::make_unexpected(lit.error());
                 return withPicture(
-                    run, "F8", name, lit->picture, kRoughness, 1,
+                    run, kGlossyView, "F8", name, lit->picture,
                     {timeOf("update [ms]", lit->runs, {&RelightStats::totalMs}, printedOf(line.ms)),
                      {"MiB", mebibytesOf(*lit->bake, lit->runs.back()), 0,
                       printedOf(line.mebibytes)},
@@ -170,8 +132,8 @@ Result<void> measureChrominance(PaperRun& run) {
         for (std::uint32_t chroma = 2; chroma <= bands; ++chroma) {
             const auto measure = [&]() -> Result<PaperLine> {
                 const Result<LitBake> lit =
-                    lightBake(run, glossySettings(LinkMode::Limn, LinkStorage::Rtp, bands, chroma),
-                              kRoughness);
+                    lightBake(run, kGlossyView,
+                              glossySettings(LinkMode::Limn, LinkStorage::Rtp, bands, chroma));
                 if (!lit)
                     return tl::make_unexpected(lit.error());
                 return PaperLine{{},
@@ -197,7 +159,7 @@ Result<void> measurePlacements(PaperRun& run) {
                 BakeSettings settings = paperSettings2(mode);
                 settings.surfels = 30000;
                 settings.placement = placement;
-                const Result<LitBake> lit = lightBake(run, settings, {});
+                const Result<LitBake> lit = lightBake(run, kSponzaView, settings);
                 if (!lit)
                     return tl::make_unexpected(lit.error());
                 const SurfelSpacing spacing = surfelSpacing(lit->bake->surfels);
@@ -222,7 +184,7 @@ Result<void> measureCounts(PaperRun& run) {
                                                              {1U << 15, 0.42},
                                                              {1U << 16, 0.82},
                                                              {1U << 17, 1.80}};
-    if (const Result<void> added = addReference(run, "F10", {}, 0); !added)
+    if (const Result<void> added = addReference(run, kSponzaView, "F10"); !added)
         return added;
     for (const LinkMode mode : kLinkModes)
         for (const std::uint32_t surfels : {1U << 14, 1U << 15, 1U << 16, 1U << 17})
@@ -233,11 +195,11 @@ Result<void> measureCounts(PaperRun& run) {
                     BakeSettings settings = paperSettings1(mode);
                     settings.surfels = surfels;
                     settings.links = links;
-                    const Result<LitBake> lit = lightBake(run, settings, {});
+                    const Result<LitBake> lit = lightBake(run, kSponzaView, settings);
                     if (!lit)
                         return tl::make_unexpected(lit.error());
                     return withPicture(
-                        run, "F10", name, lit->picture, {}, 0,
+                        run, kSponzaView, "F10", name, lit->picture,
                         {timeOf("surfels, pull [ms]", lit->runs,
                                 {&RelightStats::surfelLightMs, &RelightStats::pullMs},
                                 kPrinted.at(surfels)),
@@ -248,6 +210,52 @@ Result<void> measureCounts(PaperRun& run) {
                 if (const Result<void> added = run.line("F10", name, measure); !added)
                     return added;
             }
+    return {};
+}
+
+Result<void> measureSigns(PaperRun& run) {
+    if (const Result<void> added = addReference(run, kSignsView, "F7"); !added)
+        return added;
+    for (const LinkMode mode : kLinkModes) {
+        const std::string name = nameOf(mode);
+        const auto measure = [&]() -> Result<PaperLine> {
+            BakeSettings settings = paperSettings1(mode);
+            settings.surfels = 40000;
+            settings.lightmapCaches = 13785;
+            const Result<LitBake> lit = lightBake(run, kSignsView, settings);
+            if (!lit)
+                return tl::make_unexpected(lit.error());
+            return withPicture(
+                run, kSignsView, "F7", name, lit->picture,
+                {timeOf("update [ms]", lit->runs, {&RelightStats::totalMs}, 1000. / 195),
+                 errorFigure(lit->error), biasFigure(lit->error)});
+        };
+        if (const Result<void> added = run.line("F7", name, measure); !added)
+            return added;
+    }
+    return {};
+}
+
+Result<void> measureSpot(PaperRun& run) {
+    if (const Result<void> added = addReference(run, kSpotView, "F9b"); !added)
+        return added;
+    for (const LinkMode mode : kLinkModes)
+        for (const std::uint32_t links : {32U, 128U}) {
+            const std::string name = fmt::format("{} links, {}", links, nameOf(mode));
+            const auto measure = [&]() -> Result<PaperLine> {
+                BakeSettings settings = paperSettings2(mode);
+                settings.links = links;
+                const Result<LitBake> lit = lightBake(run, kSpotView, settings);
+                if (!lit)
+                    return tl::make_unexpected(lit.error());
+                return withPicture(run, kSpotView, "F9b", name, lit->picture,
+                                   {errorFigure(lit->error),
+                                    {"nRMSE without the worst 1 %", lit->error.nrmseTrimmed, 0, {}},
+                                    biasFigure(lit->error)});
+            };
+            if (const Result<void> added = run.line("F9b", name, measure); !added)
+                return added;
+        }
     return {};
 }
 

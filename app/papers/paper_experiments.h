@@ -30,4 +30,7 @@ std::span<const PaperExperiment> browserExperiments();
 /// Sponza under one fixed sun, as both papers have it.
 extern const PaperScene kPaperSponza;
 
+/// The sample `signs`, and the sample `cornell` with a small spot that lights a patch of its floor.
+extern const PaperScene kPaperSigns, kPaperSpot;
+
 } // namespace limn

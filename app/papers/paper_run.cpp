@@ -123,7 +123,8 @@ Result<const FrontScene*> PaperRun::scene(const PaperScene& scene, std::optional
     if (!front) {
         Result<FrontScene> opened =
             openFrontScene(sceneOptionsOf(*this, scene),
-                           {cameraOptionsOf(*this, scene), m_options->samplesPerPixel, roughness},
+                           {cameraOptionsOf(*this, scene),
+                            scene.referenceFactor * m_options->samplesPerPixel, roughness},
                            m_options->output, progressOnStderr());
         if (!opened)
             return tl::make_unexpected(opened.error());

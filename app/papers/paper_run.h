@@ -23,6 +23,7 @@ struct PaperScene {
     const char* light;         ///< as --light has it; null: the scene's own
     const char* eye = nullptr; ///< x,y,z; null: the scene's own camera
     const char* target = nullptr;
+    std::uint32_t referenceFactor = 1; ///< times the samples of other scenes' references
 };
 
 struct PaperOptions {
