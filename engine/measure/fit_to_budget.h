@@ -17,7 +17,8 @@ struct SettingsTrial {
     BakeSettings settings;
     int level = 0;      ///< of 0, 1 and 2; a higher one takes more points, paths and updates
     double seconds = 0; ///< of the bake's stages that were not kept [s]
-    double ms = 0;      ///< least time of an update of one bounce, all lights moved [ms]
+    double ms = 0;      ///< least time of an update of one bounce, all lights moved, at this level
+                        ///< and at those before it [ms]
     double bytes = 0;   ///< memory that updates read and write
     double nrmse = 0, bias = 0; ///< of irradiance, direct and bounced, at visible points
     double noise = 0;           ///< standard error of nrmse

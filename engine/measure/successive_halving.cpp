@@ -96,9 +96,23 @@ public:
         return {};
     }
 
-    SearchResult result() { return std::move(m_result); }
+    SearchResult result() {
+        if (m_result.best && !keeps(*m_result.best))
+            for (const Trial& trial : m_result.trials)
+                if (keeps(trial) && (!keeps(*m_result.best) || isMoreCertain(trial)))
+                    m_result.best = trial;
+        return std::move(m_result);
+    }
 
 private:
+    bool keeps(const Trial& trial) const { return excess(m_goal, trial.figures) <= 1; }
+    /// Than the best so far, which keeps the limits as well.
+    bool isMoreCertain(const Trial& trial) const {
+        const Trial& best = *m_result.best;
+        return trial.level > best.level ||
+               (trial.level == best.level && isBetter(m_goal, trial.figures, best.figures));
+    }
+
     const SearchGoal& m_goal;
     const SearchSteps& m_steps;
     std::map<std::pair<std::size_t, int>, Trial> m_known; ///< by candidate and level

@@ -51,8 +51,8 @@ struct SearchSteps {
 
 struct SearchResult {
     std::vector<Trial> trials; ///< in the order in which they were made
-    /// The best of those at the highest level that was reached; none: nothing was measured. It
-    /// exceeds the goal's limits where nothing found keeps them.
+    /// The best of those at the highest level at which some keep the goal's limits; where none do,
+    /// of the highest level that was reached. None: nothing was measured.
     std::optional<Trial> best;
 };
 

@@ -151,6 +151,25 @@ TEST(SuccessiveHalving, EndsWhereTimeDoesAndFailsWhereMeasuringDoes) {
     EXPECT_EQ(failed.error().message, "cancelled");
 }
 
+TEST(SuccessiveHalving, ALowerLevelCountsWhereNothingKeepsTheLimitsAtTheLast) {
+    Lattice lattice;
+    SearchSteps steps = lattice.steps();
+    steps.neighbours = nullptr;
+    const auto measure = steps.measure;
+    steps.measure = [&](std::size_t c, int level) -> Result<std::optional<TrialFigures>> {
+        auto figures = measure(c, level);
+        if (figures && *figures && level == 2)
+            (*figures)->ms += 1000; // something else takes the machine's time
+        return figures;
+    };
+    const SearchGoal goal{.maxMs = 500};
+    const Result<SearchResult> found = successiveHalving({3, 200, 700, 900}, goal, steps);
+    ASSERT_TRUE(found && found->best);
+    EXPECT_EQ(found->best->level, 1);
+    for (const Trial& trial : found->trials)
+        EXPECT_FALSE(trial.level == 1 && isBetter(goal, trial.figures, found->best->figures));
+}
+
 TEST(SearchGoal, WhatIsNoNumberIsWorst) {
     const TrialFigures good{1, 1, 1}, bad{std::nan(""), 1, 1};
     EXPECT_TRUE(isBetter({}, good, bad));
