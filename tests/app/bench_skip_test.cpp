@@ -2,6 +2,7 @@
 // `limn bench skip`: what an update saves where a scene lacks something.
 #include "tests/app/command_line.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -47,6 +48,19 @@ TEST_F(CommandLine, BenchSkipFindsTheSamePicturesWithLessWork) {
         EXPECT_GT(lacking[read]["saved_link_bytes"], 0) << read;
     for (const char* file : {"/skip.csv", "/skip.json"})
         EXPECT_NE(contents(folder + file).find("saved_link_bytes"), std::string::npos) << file;
+}
+
+// Harmonics of dark links are summed like all others, so what is left out there are the sky's.
+TEST_F(CommandLine, BenchSkipCountsLinksToABlackSkyWithoutReadingThem) {
+    const nlohmann::json rows =
+        json("bench skip cornell --storage sh " + kSmall + " --json -o " + path("skip"))["rows"];
+    const auto row =
+        std::ranges::find_if(rows, [](const nlohmann::json& r) { return r["lacks"] == "sky"; });
+    ASSERT_NE(row, rows.end());
+    EXPECT_GT((*row)["count"], 0);
+    EXPECT_EQ((*row)["same_bits"], true);
+    EXPECT_EQ((*row)["saved_link_bytes"], (*row)["count"].get<double>() * (4 + 2 * 9))
+        << "a node and 3 x 3 halfs for each";
 }
 
 TEST_F(CommandLine, BenchSkipRefusesWhatItCannotMeasure) {
