@@ -107,13 +107,8 @@ struct EditorState {
     std::optional<RecoveryOffer> recovery;
     std::optional<Notice> notice; ///< the newest one that was not dismissed
     Palette palette;
-    bool autoBake = true;   ///< bakes whenever that is needed and nothing is held
-    float bakeError = 0.2f; ///< maximum nRMSE of a bake to an error
-    /// What settings are fitted to: milliseconds of an update, and MiB of a bake with what updates
-    /// read and write beside it.
-    float budgetMs = 5, budgetMiB = 32;
-    double budgetSeconds = 270;                      ///< for the search
-    std::vector<MeasuredError> measuredErrors;       ///< of bakes of this scene, in this session
+    bool autoBake = true; ///< bakes whenever that is needed and nothing is held
+    BakeGoals goals;
     double seconds = 0;                              ///< since the start of what is animated
     std::shared_ptr<const SceneAnimation> animation; ///< of the scene file; null: it has none
     bool playing = false;                            ///< `seconds` advances

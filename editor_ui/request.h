@@ -18,8 +18,8 @@ struct Request {
         AddFile,     ///< a glTF below a group, a shape at `place`, or a texture of `object`
         Save,
         Bake,
-        BakeToError,   ///< EditorState::bakeError
-        FitToBudget,   ///< EditorState::budgetMs and budgetMiB
+        BakeToError,   ///< EditorState::goals.maxError
+        FitToBudget,   ///< EditorState::goals.budgetMs and goals.budgetMiB
         BakeSelection, ///< EditorState::selection alone gets all of its texels
         CancelBake,
         Lint, ///< checks the scene

@@ -152,13 +152,13 @@ void Session::handle(const Request& request) {
         m_bakeSoon = true;
         break;
     case Request::Kind::BakeToError:
-        m_bakeWish = {.goal = ErrorGoal{double(state.bakeError), state.view.camera}};
+        m_bakeWish = {.goal = ErrorGoal{double(state.goals.maxError), state.view.camera}};
         m_bakeSoon = true;
         break;
     case Request::Kind::FitToBudget: {
-        const SearchGoal limits{.maxMs = double(state.budgetMs),
-                                .maxBytes = double(state.budgetMiB) * (1 << 20)};
-        m_bakeWish = {.budget = BudgetGoal{limits, state.view.camera, state.budgetSeconds}};
+        const SearchGoal limits{.maxMs = double(state.goals.budgetMs),
+                                .maxBytes = double(state.goals.budgetMiB) * (1 << 20)};
+        m_bakeWish = {.budget = BudgetGoal{limits, state.view.camera, state.goals.seconds}};
         m_bakeSoon = true;
         break;
     }

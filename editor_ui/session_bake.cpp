@@ -160,7 +160,7 @@ void Session::showStatus() {
         state.relight = m_relit.status;
     m_bakeJob.report(state.bake);
     for (const MeasuredError& error : m_bakeJob.takeErrors())
-        state.measuredErrors.push_back(error);
+        state.goals.errors.push_back(error);
     if (state.bake.running)
         m_bakeSecondsRunning = state.bake.elapsedSeconds;
     state.bake.freshness =

@@ -94,12 +94,12 @@ double wholeOf(const StageSeconds& seconds) {
 /// "about" where the error is that of similar settings.
 void errorCells(const EditorState& state) {
     const MeasuredError* near =
-        nearestError(state.measuredErrors, singleton<BakeSettings>(state.document));
+        nearestError(state.goals.errors, singleton<BakeSettings>(state.document));
     label("Error", "nRMSE of the irradiance that the view shows, direct and bounced: measured by "
                    "\"Fit to a budget\" and \"Bake to an error\" in this session, in the light and "
                    "from the view of then");
     if (!near) {
-        number(kUnknown, state.measuredErrors.empty()
+        number(kUnknown, state.goals.errors.empty()
                              ? "Not known: no errors have been measured in this session"
                              : "Not known: no settings were measured that are alike these");
         ImGui::TableNextColumn();
@@ -117,7 +117,7 @@ void errorCells(const EditorState& state) {
 /// Says in words whose error the table shows.
 void errorNote(const EditorState& state) {
     const BakeSettings settings = singleton<BakeSettings>(state.document);
-    const MeasuredError* near = nearestError(state.measuredErrors, settings);
+    const MeasuredError* near = nearestError(state.goals.errors, settings);
     if (near && near->settings == settings)
         return;
     ImGui::PushTextWrapPos(0);

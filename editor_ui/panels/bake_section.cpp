@@ -87,7 +87,7 @@ static void errorRow(EditorState& state) {
                "Instead of a quality, an error: bakes begin with the counts of Draft and get finer "
                "until the irradiance that this view shows differs from path tracing by at most "
                "this share of its root mean square");
-    ImGui::SliderFloat("##error", &state.bakeError, 0.02f, 1, "%.2f",
+    ImGui::SliderFloat("##error", &state.goals.maxError, 0.02f, 1, "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     if (!state.bake.running)
         actionButton(state, "bake.error");
@@ -96,11 +96,11 @@ static void errorRow(EditorState& state) {
 static void budgetRows(EditorState& state) {
     fieldLabel("Update (ms)",
                "Maximum time of one update of one bounce on the processor, all lights moved [ms]");
-    ImGui::DragFloat("##budgetMs", &state.budgetMs, 0.05f, 0.1f, 1000, "%.2f",
+    ImGui::DragFloat("##budgetMs", &state.goals.budgetMs, 0.05f, 0.1f, 1000, "%.2f",
                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     fieldLabel("Memory (MiB)",
                "Maximum memory of the bake and of what updates read and write beside it [MiB]");
-    ImGui::DragFloat("##budgetMiB", &state.budgetMiB, 0.2f, 1, 65536, "%.1f",
+    ImGui::DragFloat("##budgetMiB", &state.goals.budgetMiB, 0.2f, 1, 65536, "%.1f",
                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     actionButton(state, "bake.budget");
     wrappedTooltip("Measures settings for up to five minutes and takes those whose light, as this "

@@ -179,9 +179,10 @@ static void bakeProgress(EditorState& state) {
     ImGui::ProgressBar(toError ? bake.stageFraction : bake.fraction, {width, 0}, text.c_str());
     ImGui::SameLine();
     if (toError && bake.fitting)
-        ImGui::Text("within %.1f ms, %.0f MiB", double(state.budgetMs), double(state.budgetMiB));
+        ImGui::Text("within %.1f ms, %.0f MiB", double(state.goals.budgetMs),
+                    double(state.goals.budgetMiB));
     else if (toError)
-        ImGui::Text("until %.2f", double(state.bakeError));
+        ImGui::Text("until %.2f", double(state.goals.maxError));
     else if (bake.secondsLeft >= 1)
         ImGui::Text("about %s left", durationText(bake.secondsLeft).c_str());
     else

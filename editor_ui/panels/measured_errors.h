@@ -4,6 +4,7 @@
 #include "engine/scene/bake_settings.h"
 
 #include <span>
+#include <vector>
 
 namespace limn {
 
@@ -12,6 +13,15 @@ namespace limn {
 struct MeasuredError {
     BakeSettings settings;
     double nrmse = 0;
+};
+
+/// What bakes aim at when somebody asks for an error or for a budget, and what was measured then.
+struct BakeGoals {
+    float maxError = 0.2f; ///< nRMSE of a bake to an error
+    float budgetMs = 5;    ///< of an update [ms]
+    float budgetMiB = 32;  ///< of a bake with what updates read and write beside it [MiB]
+    double seconds = 270;  ///< for the search within a budget
+    std::vector<MeasuredError> errors; ///< of bakes of this scene, in this session
 };
 
 /// The error of the settings that are most alike `settings`, the newest of several; null where

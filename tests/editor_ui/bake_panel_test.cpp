@@ -84,7 +84,7 @@ TEST_F(BakePanel, StagesThatWereKeptCostWhatTheyDidBefore) {
 
 TEST_F(BakePanel, ABakeUntilTheErrorHoldsSetsItsCountsAsOneEdit) {
     state.view.camera = chooseCamera(*session.scene(), {});
-    state.bakeError = 0.6f;
+    state.goals.maxError = 0.6f;
     const BakeSettings before = settings();
     runAction(state, actionById("bake.error"));
     ASSERT_TRUE(runUntil(session, [&] { return !state.bake.step.empty(); }));
@@ -100,7 +100,7 @@ TEST_F(BakePanel, ABakeUntilTheErrorHoldsSetsItsCountsAsOneEdit) {
 
 TEST_F(BakePanel, ABakeUntilTheErrorHoldsCanBeCancelled) {
     state.view.camera = chooseCamera(*session.scene(), {});
-    state.bakeError = 0.02f;
+    state.goals.maxError = 0.02f;
     const auto bake = session.baked().bake;
     const Document before = state.document;
     runAction(state, actionById("bake.error"));
@@ -114,11 +114,11 @@ TEST_F(BakePanel, ABakeUntilTheErrorHoldsCanBeCancelled) {
 
 TEST_F(BakePanel, FitsSettingsToABudgetAsOneEdit) {
     state.view.camera = chooseCamera(*session.scene(), {});
-    state.budgetMs = 500;
-    state.budgetMiB = 6;
-    state.budgetSeconds = 1; // the least number of trials
+    state.goals.budgetMs = 500;
+    state.goals.budgetMiB = 6;
+    state.goals.seconds = 1; // the least number of trials
     const BakeSettings before = settings();
-    EXPECT_TRUE(state.measuredErrors.empty());
+    EXPECT_TRUE(state.goals.errors.empty());
     runAction(state, actionById("bake.budget"));
     ASSERT_TRUE(runUntil(session, [&] { return state.bake.fitting && !state.bake.step.empty(); }));
     ASSERT_TRUE(runUntil(session, [&] { return !state.bake.goal.empty(); })) << state.bake.error;
@@ -126,7 +126,7 @@ TEST_F(BakePanel, FitsSettingsToABudgetAsOneEdit) {
     EXPECT_EQ(settings(), session.baked().bake->settings());
     EXPECT_NE(state.bake.goal.find("error of 0."), std::string::npos) << state.bake.goal;
     EXPECT_LE(state.bake.measured.bytes, 6 * (1 << 20));
-    const MeasuredError* known = nearestError(state.measuredErrors, settings());
+    const MeasuredError* known = nearestError(state.goals.errors, settings());
     ASSERT_NE(known, nullptr);
     EXPECT_EQ(known->settings, settings()) << "the error of what was found is known";
     ASSERT_EQ(state.history.edits.size(), 1U);
@@ -137,8 +137,8 @@ TEST_F(BakePanel, FitsSettingsToABudgetAsOneEdit) {
 
 TEST_F(BakePanel, AFitThatKeepsNoBudgetOrIsCancelledChangesNothing) {
     state.view.camera = chooseCamera(*session.scene(), {});
-    state.budgetMs = 1e-6f;
-    state.budgetSeconds = 1;
+    state.goals.budgetMs = 1e-6f;
+    state.goals.seconds = 1;
     const auto bake = session.baked().bake;
     const Document before = state.document;
     runAction(state, actionById("bake.budget"));
@@ -146,8 +146,8 @@ TEST_F(BakePanel, AFitThatKeepsNoBudgetOrIsCancelledChangesNothing) {
     EXPECT_NE(state.bake.error.find("ms, not"), std::string::npos) << state.bake.error;
     EXPECT_EQ(session.baked().bake, bake);
     EXPECT_EQ(state.document, before);
-    state.budgetMs = 5;
-    state.budgetSeconds = 270;
+    state.goals.budgetMs = 5;
+    state.goals.seconds = 270;
     runAction(state, actionById("bake.budget"));
     ASSERT_TRUE(runUntil(session, [&] { return state.bake.running && !state.bake.stage.empty(); }));
     runAction(state, actionById("bake.cancel"));

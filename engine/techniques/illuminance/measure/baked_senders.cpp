@@ -6,6 +6,8 @@
 #include "engine/techniques/illuminance/bake/rays/trace_record.h"
 #include "engine/techniques/illuminance/bake/senders/patch_sides.h"
 
+#include <cassert>
+
 namespace limn {
 
 static PlacedAtlas placedAtlas(const TraceScene& trace, const Scene& scene, StageStore& store) {
@@ -17,6 +19,7 @@ BakedSenders::BakedSenders(const TraceScene& trace, const Scene& scene, const Ba
                            StageStore& store)
     : placed(placedAtlas(trace, scene, store)),
       set(placeSurfels(scene, scene.bake.surfels, placed.surfels, {}, &store)), owners(scene, set) {
+    assert(set.surfels.size() == baked.surfels.size());
     owners.keep(store, ownerKeys(set, hashMeshes(scene)));
     owners.part(findPatchSides(trace, set, owners, {}));
     placeCaches(scene, placed.atlas, lightmap);

@@ -18,7 +18,8 @@ struct BakedSenders {
     CachePoints lightmap, grid;
 
     /// Reads what the bake of `scene` kept in `store` and recomputes the rest. Keeps references to
-    /// `scene`.
+    /// `scene`. Precondition: scene.bake places surfels and texels as the settings of
+    /// `baked` do.
     BakedSenders(const TraceScene& trace, const Scene& scene, const Bake& baked, StageStore& store);
 };
 
