@@ -31,12 +31,12 @@ const PaperFigure* figureOf(const PaperLine& line, const std::string& column) {
     return figure == line.figures.end() ? nullptr : &*figure;
 }
 
-/// Three significant digits, and all of those before the point.
-std::string shortNumber(double value) {
-    const double size = std::abs(value);
-    if (size >= 100 || value == std::round(value))
+/// The given number of significant digits, and all of those before the point.
+std::string shortNumber(double value, int digits = 3) {
+    if (value == std::round(value))
         return fmt::format("{:.0f}", value);
-    return fmt::format("{:.{}f}", value, size >= 10 ? 1 : size >= 1 ? 2 : size >= 0.1 ? 3 : 4);
+    const int whole = int(std::floor(std::log10(std::abs(value)))) + 1;
+    return fmt::format("{:.{}f}", value, std::clamp(digits - whole, 0, 4));
 }
 
 /// "3.42 ± 0.1 (116)": measured, its noise, and printed in brackets.
@@ -45,7 +45,7 @@ std::string cellOf(const PaperFigure* figure) {
         return "";
     std::string text = figure->measured ? shortNumber(*figure->measured) : "";
     if (figure->noise > 0)
-        text += " \u00b1 " + shortNumber(figure->noise);
+        text += " \u00b1 " + shortNumber(figure->noise, 1);
     if (figure->printed)
         text += fmt::format("{}({})", text.empty() ? "" : " ", shortNumber(*figure->printed));
     return text;

@@ -34,14 +34,14 @@ TEST(PapersPage, SetsPrintedFiguresBesideMeasuredOnes) {
     const auto html = limn::papersPage(tables, "limn 0", "nowhere");
     ASSERT_TRUE(html) << html.error().message;
     for (const char* part :
-         {"times &lt; errors", "ours &amp; one", "3.46 \u00b1 0.250 (116)", "0.0512 \u00b1 0.0010",
+         {"times &lt; errors", "ours &amp; one", "3.46 \u00b1 0.2 (116)", "0.0512 \u00b1 0.001",
           "<td>(7.17)</td>", "<svg", "Not measured: there is no x.gltf", "those of a card"})
         EXPECT_NE(html->find(part), std::string::npos) << part;
     for (const char* outside : {"http:", "https:", "<script", ">nan"})
         EXPECT_EQ(html->find(outside), std::string::npos) << outside;
     const std::string text = limn::papersMarkdown(tables, "limn 0");
     EXPECT_NE(text.find("| | caches [ms] | nRMSE | frame [ms] |\n|---|---|---|---|\n"
-                        "| ours & one | 3.46 \u00b1 0.250 (116) |"),
+                        "| ours & one | 3.46 \u00b1 0.2 (116) |"),
               std::string::npos)
         << text;
     EXPECT_EQ(limn::papersRows(tables).size(), 6u);
