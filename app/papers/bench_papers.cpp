@@ -5,6 +5,7 @@
 #include "app/bench/place_on_device.h"
 #include "app/papers/papers_page.h"
 #include "app/program_version.h"
+#include "app/techniques/technique_program.h"
 
 #include "engine/core/log.h"
 #include "engine/core/parallel.h"
@@ -29,9 +30,14 @@ struct PapersBench {
 
 std::vector<const PaperExperiment*> allExperiments() {
     std::vector<const PaperExperiment*> all;
-    for (const auto& some : {compositionExperiments(), browserExperiments()})
+    const auto add = [&](std::span<const PaperExperiment> some) {
         for (const PaperExperiment& experiment : some)
             all.push_back(&experiment);
+    };
+    for (const TechniqueProgram* program : techniquePrograms())
+        if (program->experiments)
+            add(program->experiments());
+    add(browserExperiments());
     return all;
 }
 

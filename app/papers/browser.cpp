@@ -5,8 +5,8 @@
 #include "app/bench/light_place.h"
 #include "app/bench/moving_lights.h"
 #include "app/bench/place_on_device.h"
+#include "app/bench/spread.h"
 #include "app/commands/progress_line.h"
-#include "app/techniques/illuminance/bench_bakes.h"
 
 #include "engine/lighting/fastest_update.h"
 #include "engine/techniques/technique_table.h"

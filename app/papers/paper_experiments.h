@@ -9,7 +9,7 @@
 
 namespace limn {
 
-/// An experiment of a paper.
+/// An experiment of a paper. Those on one technique alone are its TechniqueProgram's.
 struct PaperExperiment {
     const char* key; ///< on the command line, such as "T2"
     const char* title;
@@ -19,18 +19,11 @@ struct PaperExperiment {
     Result<void> (*measure)(PaperRun& run);
 };
 
-/// Of Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance
-/// Composition with Chrominance Compression. 2016
-std::span<const PaperExperiment> compositionExperiments();
-
 /// Of Bertilsson, von Essen, Hesslow, Jonsson, Moos, Persson. Real-Time Global Illumination in
 /// Web-Browsers. 2018
 std::span<const PaperExperiment> browserExperiments();
 
 /// Sponza under one fixed sun, as both papers have it.
 extern const PaperScene kPaperSponza;
-
-/// The sample `signs`, and the sample `cornell` with a small spot that lights a patch of its floor.
-extern const PaperScene kPaperSigns, kPaperSpot;
 
 } // namespace limn

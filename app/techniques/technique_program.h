@@ -10,6 +10,8 @@
 
 namespace limn {
 
+struct PaperExperiment;
+
 /// A technique's own part of the program: what can only be said or measured by someone who knows
 /// the method. Everything else reads engine/techniques/technique_table.h.
 struct TechniqueProgram {
@@ -21,6 +23,8 @@ struct TechniqueProgram {
     bool (*print)(const std::string& key, const Json& value);
     /// Adds the benchmarks of the method's parts to `limn bench`.
     void (*addBenches)(Command& bench);
+    /// Experiments of its papers, for `limn bench papers`; null: none.
+    std::span<const PaperExperiment> (*experiments)() = nullptr;
 };
 
 std::span<const TechniqueProgram* const> techniquePrograms();

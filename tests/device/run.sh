@@ -13,7 +13,7 @@ options=(--scenes "$scenes" -o "$out" --only T2,5.3.1 --runs 31)
 [ -z "${DEVICE:-}" ] || options+=(--device "$DEVICE")
 # No reference is needed for times: the smallest one is quick.
 "$limn" bench papers "${options[@]}" --width 32 --height 18 --spp 4
-device=$(sed -n 's/.*; device \(.*\)$/\1/p' "$out/papers.md" | head -1)
+device=$(sed -n '1s/.*; device \(.*\)$/\1/p' "$out/papers.md")
 case $device in
 '') echo "no Vulkan device was found" >&2; exit 1 ;;
 *llvmpipe*) [ -n "${DEVICE:-}" ] || { echo "the only device is a program on the CPU: $device" >&2; exit 1; } ;;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/bench/bench.h"
+#include "app/bench/spread.h"
 #include "app/commands/scene_options.h"
 #include "engine/techniques/illuminance/format/bake.h"
 #include "engine/trace/trace_scene.h"
@@ -59,14 +60,5 @@ struct FieldDifference {
     /// Root mean square difference, over the root mean square of the right values.
     double nrmse() const { return std::sqrt(difference / std::max(square, 1e-300)); }
 };
-
-struct Spread {
-    double median = 0, p95 = 0;
-};
-/// Median and 95th percentile. Precondition: `values` is not empty.
-Spread spreadOf(std::vector<double> values);
-
-/// Adds "NAME_median_ms" and "NAME_p95_ms" to a row; without a name "median_ms" and "p95_ms".
-void addSpread(Json& row, const std::string& name, const std::vector<double>& ms);
 
 } // namespace limn

@@ -5,6 +5,7 @@
 #include "app/techniques/illuminance/illuminance_program.h"
 
 #include "engine/files/relight_choice.h"
+#include "engine/gpu/device.h"
 #include "engine/lighting/fastest_update.h"
 
 #include <fmt/format.h>
@@ -132,6 +133,9 @@ Result<Json> measureFrames(const FrameBench& o, const BenchBake& baked, std::uin
 }
 
 Exit runFrameBench(const FrameBench& o) {
+    if (const auto device = gpu::createDevice({.name = o.device});
+        !device) // before anything is baked
+        return failed("--device: " + device.error().message);
     Json rows = Json::array();
     if (!o.json)
         printTitles(kFrameColumns);

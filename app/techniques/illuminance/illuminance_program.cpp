@@ -96,6 +96,7 @@ static void addBenches(Command& bench) {
 constinit const TechniqueProgram kIlluminanceProgram = {.technique = &kIlluminanceTechnique,
                                                         .describe = describeBake,
                                                         .print = print,
-                                                        .addBenches = addBenches};
+                                                        .addBenches = addBenches,
+                                                        .experiments = illuminanceExperiments};
 
 } // namespace limn

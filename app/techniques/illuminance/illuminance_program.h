@@ -22,4 +22,8 @@ void addRelightBench(Command& bench);
 void addSkipBench(Command& bench);
 void addStressBench(Command& bench);
 
+/// Of Jendersie, Kuri, Grosch. Real-Time Global Illumination Using Precomputed Illuminance
+/// Composition with Chrominance Compression. 2016
+std::span<const PaperExperiment> illuminanceExperiments();
+
 } // namespace limn

@@ -11,8 +11,9 @@
 namespace limn {
 
 /// Light [W m^-2, W m^-2 sr^-1] that costs as much as any other and lies many orders of magnitude
-/// below the last bit of light at work. Added to light of more than 1e-12, it changes no bit but, in
-/// a few surfels, the last one: perhaps where a fused multiply-add sees it before it rounds a tie.
+/// below the last bit of light at work. Added to light of more than 1e-12, it changes no bit but,
+/// in a few surfels, the last one: perhaps where a fused multiply-add sees it before it rounds a
+/// tie.
 inline constexpr float kFaintLight = 1e-20f;
 
 /// A scene that lacks something, so that an update of its light can skip work, and how the same

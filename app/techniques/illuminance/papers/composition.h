@@ -45,6 +45,9 @@ PaperFigure timeOf(const char* column, const std::vector<RelightStats>& runs,
 /// Memory that updates read and write, of the bake and beside it [MiB].
 double mebibytesOf(const Bake& bake, const RelightStats& stats);
 
+/// The sample `signs`, and the sample `cornell` with a small spot that lights a patch of its floor.
+extern const PaperScene kPaperSigns, kPaperSpot;
+
 Result<void> measureStepTimes(PaperRun& run);   // Table 2
 Result<void> measureResolutions(PaperRun& run); // Section 5.3.1
 Result<void> measureChrominance(PaperRun& run); // Table 3

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "app/papers/composition.h"
-#include "app/techniques/illuminance/bench_bakes.h"
+#include "app/bench/spread.h"
 #include "app/techniques/illuminance/frame_times.h"
+#include "app/techniques/illuminance/papers/composition.h"
 
 #include "engine/lighting/fastest_update.h"
 

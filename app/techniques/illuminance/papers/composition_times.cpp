@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "app/papers/composition.h"
 #include "app/techniques/illuminance/bench_relight_gpu.h"
+#include "app/techniques/illuminance/papers/composition.h"
 
 #include "engine/core/parallel.h"
 #include "engine/lighting/fastest_update.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/papers/composition.h"
+#include "app/techniques/illuminance/papers/composition.h"
 
 #include "engine/techniques/illuminance/format/bake_bytes.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "app/papers/composition.h"
 #include "app/papers/paper_view.h"
+#include "app/techniques/illuminance/papers/composition.h"
 
 #include "engine/measure/compare.h"
 #include "engine/picture/field_render.h"

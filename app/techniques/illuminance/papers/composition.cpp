@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "app/papers/composition.h"
+#include "app/techniques/illuminance/papers/composition.h"
 
+#include "app/bench/spread.h"
 #include "app/commands/progress_line.h"
-#include "app/techniques/illuminance/bench_bakes.h"
+#include "app/techniques/illuminance/illuminance_program.h"
 
 #include "engine/lighting/fastest_update.h"
 #include "engine/techniques/illuminance/bake/baker.h"
@@ -11,12 +12,6 @@
 #include <array>
 
 namespace limn {
-
-const PaperScene kPaperSponza = {.name = "Sponza",
-                                 .file = "sponza-crytek/Sponza.gltf",
-                                 .light = "sun dir=0.2,-1,-0.1 lux=20",
-                                 .eye = "7,2,-0.3",
-                                 .target = "-5,4,-0.3"};
 
 const PaperScene kPaperSigns = {
     .name = "signs", .file = nullptr, .light = nullptr, .referenceFactor = 4};
@@ -95,7 +90,7 @@ double mebibytesOf(const Bake& bake, const RelightStats& stats) {
     return double(bytesOf(bake).total() + stats.bytes) / (1 << 20);
 }
 
-std::span<const PaperExperiment> compositionExperiments() {
+std::span<const PaperExperiment> illuminanceExperiments() {
     static constexpr const char* kCards = "GTX 980, 1920 x 1080";
     static const std::array<PaperExperiment, 10> experiments = {
         {{"T2", "Table 2: time of each step", "i7-4790S, 4 cores, and GTX 980; SH links",
