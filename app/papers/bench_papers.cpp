@@ -8,7 +8,6 @@
 #include "app/techniques/technique_program.h"
 
 #include "engine/core/log.h"
-#include "engine/core/parallel.h"
 #include "engine/core/replace_file.h"
 
 #include <algorithm>
@@ -25,7 +24,7 @@ namespace {
 struct PapersBench {
     PaperOptions run;
     std::vector<std::string> only; ///< keys; empty: all
-    bool cpuOnly = false, json = false;
+    bool json = false;
 };
 
 std::vector<const PaperExperiment*> allExperiments() {
@@ -53,7 +52,7 @@ std::string missing(const PaperRun& run, const PaperExperiment& experiment) {
 Result<std::string> machineOf(PapersBench& o) {
     std::string machine = fmt::format("{}; CPU with {} threads", programVersion(),
                                       std::max(1U, std::thread::hardware_concurrency()));
-    if (o.cpuOnly)
+    if (!o.run.onDevice)
         return machine + "; no device";
     const Result<LightPlace> device = placeOnDevice(o.run.device);
     if (!device && !o.run.device.empty())
@@ -136,7 +135,8 @@ void addPapersBench(Command& bench) {
         .list()
         .oneOf(keys);
     command.option("--device", o->run.device, "Part of the Vulkan device's name");
-    command.flag("--cpu", o->cpuOnly, "Measure no device");
+    command.flag(
+        "--cpu", [o] { o->run.onDevice = false; }, "Measure no device");
     command.option("--width", o->run.width, "Width of the pictures [pixels]").within(16, 4096);
     command.option("--height", o->run.height, "Height of the pictures [pixels]").within(16, 4096);
     command.option("--spp", o->run.samplesPerPixel, "Samples per pixel of either reference")
@@ -147,10 +147,7 @@ void addPapersBench(Command& bench) {
                 "printed")
         .within(1, 100000);
     command.flag("--json", o->json, "Print one JSON object to stdout");
-    command.onRun([o] {
-        o->run.onDevice = !o->cpuOnly;
-        return runPapersBench(*o);
-    });
+    command.onRun([o] { return runPapersBench(*o); });
 }
 
 } // namespace limn

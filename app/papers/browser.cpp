@@ -5,14 +5,12 @@
 #include "app/bench/light_place.h"
 #include "app/bench/moving_lights.h"
 #include "app/bench/place_on_device.h"
-#include "app/bench/spread.h"
 #include "app/commands/progress_line.h"
 
 #include "engine/lighting/fastest_update.h"
 #include "engine/techniques/technique_table.h"
 
 #include <array>
-#include <cmath>
 #include <functional>
 
 #include <fmt/format.h>
@@ -73,8 +71,7 @@ PaperFigure timeUpdatesOf(const char* column, Lighting& lighting, const TraceSce
         if (k > 0)
             ms.push_back(report.totalMs);
     }
-    const Spread spread = spreadOf(ms);
-    return {column, spread.median, spread.p95 - spread.median, printed};
+    return timeFigure(column, ms, printed);
 }
 
 /// Sponza's sun and `count` spots that shine from points over its surfaces onto these.

@@ -7,8 +7,6 @@
 #include "engine/files/image_file.h"
 #include "engine/scene/tone_map.h"
 
-#include <charconv>
-#include <cstdio>
 #include <string_view>
 #include <utility>
 
@@ -55,18 +53,6 @@ std::string fileNameOf(std::string_view text) {
     return name;
 }
 
-std::vector<double> numbersIn(std::string_view text) {
-    std::vector<double> numbers;
-    for (const char *p = text.data(), *end = p + text.size(); p < end; ++p) {
-        double number = 0;
-        p = std::from_chars(p, end, number).ptr;
-        numbers.push_back(number);
-    }
-    return numbers;
-}
-
-} // namespace
-
 SceneOptions sceneOptionsOf(const PaperRun& run, const PaperScene& scene) {
     SceneOptions options;
     options.scene = run.pathOf(scene);
@@ -77,12 +63,14 @@ SceneOptions sceneOptionsOf(const PaperRun& run, const PaperScene& scene) {
 
 CameraOptions cameraOptionsOf(const PaperRun& run, const PaperScene& scene) {
     CameraOptions camera{.width = run.options().width, .height = run.options().height};
-    if (scene.eye) {
-        camera.eye = numbersIn(scene.eye);
-        camera.target = numbersIn(scene.target);
+    if (scene.view) {
+        camera.eye.assign(scene.view->eye.begin(), scene.view->eye.end());
+        camera.target.assign(scene.view->target.begin(), scene.view->target.end());
     }
     return camera;
 }
+
+} // namespace
 
 Result<PaperRun> PaperRun::open(const PaperOptions& options) {
     Result<KeptRows> kept = KeptRows::open(options.output, "papers");

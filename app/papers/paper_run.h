@@ -8,6 +8,7 @@
 #include "engine/core/result.h"
 #include "engine/stages/stage_store.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -19,10 +20,12 @@ namespace limn {
 /// A scene that papers measure, with the lights and the camera that stand for theirs.
 struct PaperScene {
     const char* name;
-    const char* file;          ///< in the folder of scenes; null: a sample project of this name
-    const char* light;         ///< as --light has it; null: the scene's own
-    const char* eye = nullptr; ///< x,y,z; null: the scene's own camera
-    const char* target = nullptr;
+    const char* file;  ///< in the folder of scenes; null: a sample project of this name
+    const char* light; ///< as --light has it; null: the scene's own
+    struct View {
+        std::array<double, 3> eye, target;
+    };
+    std::optional<View> view = {};     ///< in the file's coordinates [m]; none: its own camera
     std::uint32_t referenceFactor = 1; ///< times the samples of other scenes' references
 };
 
@@ -72,9 +75,5 @@ private:
     std::map<std::string, std::unique_ptr<FrontScene>> m_scenes;
     std::map<std::string, std::vector<PaperLine>> m_lines;
 };
-
-/// The options of a scene on the command line that stand for a paper's.
-SceneOptions sceneOptionsOf(const PaperRun& run, const PaperScene& scene);
-CameraOptions cameraOptionsOf(const PaperRun& run, const PaperScene& scene);
 
 } // namespace limn

@@ -6,7 +6,6 @@ namespace limn {
 const PaperScene kPaperSponza = {.name = "Sponza",
                                  .file = "sponza-crytek/Sponza.gltf",
                                  .light = "sun dir=0.2,-1,-0.1 lux=20",
-                                 .eye = "7,2,-0.3",
-                                 .target = "-5,4,-0.3"};
+                                 .view = PaperScene::View{{7, 2, -0.3}, {-5, 4, -0.3}}};
 
 } // namespace limn

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/papers/paper_view.h"
 
+#include "app/bench/spread.h"
+
 #include <cmath>
 #include <utility>
 
@@ -32,6 +34,12 @@ Result<void> addReference(PaperRun& run, const PaperView& view, const std::strin
         return withPicture(run, view, experiment, "reference", truth,
                            {{"noise of a pixel", noiseOf((*front)->truth), 0, {}}});
     });
+}
+
+PaperFigure timeFigure(const char* column, const std::vector<double>& ms,
+                       std::optional<double> printed) {
+    const Spread spread = spreadOf(ms);
+    return {column, spread.median, spread.p95 - spread.median, printed};
 }
 
 PaperFigure errorFigure(const Comparison& error) {

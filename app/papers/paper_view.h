@@ -27,6 +27,23 @@ Result<PaperLine> withPicture(PaperRun& run, const PaperView& view, const std::s
 /// Adds the reference as a line of an experiment.
 Result<void> addReference(PaperRun& run, const PaperView& view, const std::string& experiment);
 
+/// Median of times [ms], with their 95th percentile over it as the noise.
+PaperFigure timeFigure(const char* column, const std::vector<double>& ms,
+                       std::optional<double> printed = {});
+
+/// Of a sum of steps over runs.
+template <class Run>
+PaperFigure timeOf(const char* column, const std::vector<Run>& runs,
+                   std::initializer_list<double Run::*> steps, std::optional<double> printed = {}) {
+    std::vector<double> ms;
+    for (const Run& run : runs) {
+        ms.push_back(0);
+        for (double Run::*step : steps)
+            ms.back() += run.*step;
+    }
+    return timeFigure(column, ms, printed);
+}
+
 PaperFigure errorFigure(const Comparison& error);
 PaperFigure biasFigure(const Comparison& error);
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/lighting/fastest_update.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -27,19 +29,28 @@ Scene withMovedLights(const Scene& scene, int k) {
     return moved;
 }
 
-LightingReport fastestUpdate(Lighting& lighting, const Scene& scene, const TraceScene& trace,
-                             int runs, const Progress& progress) {
-    LightingReport best;
+std::vector<LightingReport> updatesWithMovedLights(Lighting& lighting, const Scene& scene,
+                                                   const TraceScene& trace, int runs,
+                                                   const Progress& progress) {
+    std::vector<LightingReport> updates;
     for (int k = 0; k <= runs; ++k) {
         const Scene moved = withMovedLights(scene, k);
         LightingReport update =
             lighting.update({.scene = moved, .trace = &trace, .bounces = 1}, progress);
         if (progress.cancelled())
             return {};
-        if (k == 1 || (k > 1 && update.totalMs < best.totalMs))
-            best = std::move(update);
+        if (k > 0)
+            updates.push_back(std::move(update));
     }
-    return best;
+    return updates;
+}
+
+LightingReport fastestUpdate(Lighting& lighting, const Scene& scene, const TraceScene& trace,
+                             int runs, const Progress& progress) {
+    std::vector<LightingReport> updates =
+        updatesWithMovedLights(lighting, scene, trace, runs, progress);
+    const auto best = std::ranges::min_element(updates, {}, &LightingReport::totalMs);
+    return best == updates.end() ? LightingReport{} : std::move(*best);
 }
 
 } // namespace limn

@@ -10,22 +10,15 @@ namespace limn {
 
 BounceTimes timeBounces(Lighting& lighting, const Scene& scene, const TraceScene& trace, int runs,
                         const Progress& progress) {
-    BounceTimes times;
-    std::vector<double> ms;
-    for (int k = 0; k <= runs; ++k) {
-        const Scene moved = withMovedLights(scene, k);
-        LightingReport update =
-            lighting.update({.scene = moved, .trace = &trace, .bounces = 1}, progress);
-        if (progress.cancelled())
-            return {};
-        if (k == 0)
-            continue;
-        if (ms.empty() || update.totalMs < *std::ranges::min_element(ms))
-            times.steps = std::move(update.steps);
-        ms.push_back(update.totalMs);
-    }
-    if (ms.empty())
+    std::vector<LightingReport> updates =
+        updatesWithMovedLights(lighting, scene, trace, runs, progress);
+    if (updates.empty())
         return {};
+    BounceTimes times;
+    times.steps = std::move(std::ranges::min_element(updates, {}, &LightingReport::totalMs)->steps);
+    std::vector<double> ms;
+    for (const LightingReport& update : updates)
+        ms.push_back(update.totalMs);
     std::ranges::sort(ms);
     times.least = ms.front();
     times.median = ms[ms.size() / 2];

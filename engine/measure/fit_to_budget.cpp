@@ -112,9 +112,7 @@ private:
 
     Stopwatch m_clock;
     double m_passed = 0;
-    StageStore m_store;        ///< in memory
-    bool m_started = false;    ///< the first bake is measured
-    std::uint32_t m_paths = 1; ///< times those of the levels
+    StageStore m_store; ///< in memory
     std::array<std::optional<SeenTruth>, kLevels.size()> m_truths;
     std::shared_ptr<const Precomputed> m_base; ///< which predictions start from
     PrecomputedCost m_baseCost;
@@ -181,33 +179,17 @@ Result<SettingsTrial> BudgetFit::measure(const BakeSettings& settings, int level
         m_baseCost = {report.seconds, trial.bytes, times.steps, times.least};
     }
     m_fitted.trials.push_back(trial);
-    if (m_started && m_tried)
+    if (m_tried)
         m_tried(trial);
     return trial;
 }
 
-/// Measures the bake that predictions start from, with as many paths as its error takes: scenes
-/// whose light is nearly right need more to tell settings apart.
+/// Measures the bake that predictions start from.
 Result<void> BudgetFit::measureBase() {
-    constexpr double kShareOfTime = 0.05, kRelativeNoise = 0.1;
-    constexpr std::uint32_t kMostPaths = 8;
     BakeSettings draft = startSettings();
     kBakePresets.front().applyTo(draft);
-    for (;; m_paths *= 2) {
-        m_fitted.trials.clear();
-        m_truths[0].reset();
-        const double start = seconds();
-        const Result<SettingsTrial> base = measure(draft, 0);
-        if (!base)
-            return tl::make_unexpected(base.error());
-        const bool sure = base->noise <= kRelativeNoise * std::max(base->nrmse, 0.01);
-        if (sure || m_paths == kMostPaths || seconds() - start > kShareOfTime * m_goal.seconds)
-            break;
-    }
-    m_started = true;
-    if (m_tried)
-        m_tried(m_fitted.trials.front());
-    return {};
+    const Result<SettingsTrial> base = measure(draft, 0);
+    return base ? Result<void>() : tl::make_unexpected(base.error());
 }
 
 /// What the settings are expected to cost: as the first bake predicts it, times by how much its

@@ -45,8 +45,8 @@ void startSide(Side& side, const std::shared_ptr<const Bake>& bake) {
     side.relighter->lightUnreadGrid(side.unreadGrid);
 }
 
-/// Updates until the light is at rest. The counters are those of all the calls together where they
-/// count work.
+/// Updates until the light converges. Returns the report of the first update with the time and the
+/// links of all of them.
 RelightStats lightToRest(Relighter& relighter, const Scene& scene, const TraceScene& trace,
                          const CacheFlags* seen) {
     constexpr int kMaxCalls = 256;
@@ -145,7 +145,7 @@ Json savingsOf(const BenchBake& baked, const LackingScene& lacking, const Sides&
     const double ms = medianMs(sides[0].runs), wholeMs = medianMs(sides[1].runs),
                  wholeLinks = linkBytes(*baked.bake, whole, whole.links);
     const std::uint64_t count = lacking.count(skipping, whole);
-    // Links are read to find that their senders are dark: it is their sums that are saved then.
+    // A link must be read to find that its sender is dark, so that no memory access is saved then.
     const double links =
         linkBytes(*baked.bake, skipping, skipping.links - (lacking.unreadLinks ? count : 0));
     return {{"counter", lacking.counter},

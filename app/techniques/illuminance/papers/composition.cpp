@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/techniques/illuminance/papers/composition.h"
 
-#include "app/bench/spread.h"
 #include "app/commands/progress_line.h"
 #include "app/techniques/illuminance/illuminance_program.h"
 
@@ -70,20 +69,6 @@ std::vector<RelightStats> relightRuns(const FrontScene& front, std::shared_ptr<c
             stats.push_back(once);
     }
     return stats;
-}
-
-PaperFigure timeOf(const char* column, const std::vector<RelightStats>& runs,
-                   std::initializer_list<double RelightStats::*> steps,
-                   std::optional<double> printed) {
-    std::vector<double> ms;
-    for (const RelightStats& run : runs) {
-        double sum = 0;
-        for (double RelightStats::*step : steps)
-            sum += run.*step;
-        ms.push_back(sum);
-    }
-    const Spread spread = spreadOf(ms);
-    return {column, spread.median, spread.p95 - spread.median, printed};
 }
 
 double mebibytesOf(const Bake& bake, const RelightStats& stats) {

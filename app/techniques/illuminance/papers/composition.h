@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/papers/paper_experiments.h"
+#include "app/papers/paper_view.h"
 
 #include "engine/techniques/illuminance/format/bake.h"
 #include "engine/techniques/illuminance/relight/relight.h"
@@ -36,11 +37,6 @@ Result<std::shared_ptr<const Bake>> bakeFor(PaperRun& run, const FrontScene& fro
 /// one that does not count.
 std::vector<RelightStats> relightRuns(const FrontScene& front, std::shared_ptr<const Bake> bake,
                                       int runs);
-
-/// Median of a sum of steps over the runs, with its 95th percentile over the median as the noise.
-PaperFigure timeOf(const char* column, const std::vector<RelightStats>& runs,
-                   std::initializer_list<double RelightStats::*> steps,
-                   std::optional<double> printed = {});
 
 /// Memory that updates read and write, of the bake and beside it [MiB].
 double mebibytesOf(const Bake& bake, const RelightStats& stats);

@@ -8,6 +8,7 @@
 #include "engine/techniques/illuminance/format/surfel_spacing.h"
 
 #include <array>
+#include <functional>
 #include <map>
 
 #include <fmt/format.h>
@@ -49,6 +50,22 @@ Result<LitBake> lightBake(PaperRun& run, const PaperView& view, const BakeSettin
         return tl::make_unexpected(error.error());
     lit.error = *error;
     return lit;
+}
+
+using LitFigures = std::function<std::vector<PaperFigure>(const LitBake&)>;
+
+/// Adds a line with figures of a bake with these settings, and its picture where `pictured`.
+Result<void> litLine(PaperRun& run, const PaperView& view, const char* experiment,
+                     const std::string& name, const BakeSettings& settings, bool pictured,
+                     const LitFigures& figuresOf) {
+    return run.line(experiment, name, [&]() -> Result<PaperLine> {
+        const Result<LitBake> lit = lightBake(run, view, settings);
+        if (!lit)
+            return tl::make_unexpected(lit.error());
+        if (!pictured)
+            return PaperLine{{}, figuresOf(*lit), {}};
+        return withPicture(run, view, experiment, name, lit->picture, figuresOf(*lit));
+    });
 }
 
 /// A line of Figure 8 before it is measured: storage, bands of luminance and of chrominance, and
@@ -100,20 +117,18 @@ Result<void> measureGlossy(PaperRun& run) {
             const std::string name =
                 fmt::format("{} {}:{}, {}", line.storage == LinkStorage::Sh ? "SH" : "RTP",
                             line.bands, line.chroma, nameOf(mode));
-            const auto measure = [&]() -> Result<PaperLine> {
-                const Result<LitBake> lit = lightBake(
-                    run, kGlossyView, glossySettings(mode, line.storage, line.bands, line.chroma));
-                if (!lit)
-                    return tl::make_unexpected(lit.error());
-                return withPicture(
-                    run, kGlossyView, "F8", name, lit->picture,
-                    {timeOf("update [ms]", lit->runs, {&RelightStats::totalMs}, printedOf(line.ms)),
-                     {"MiB", mebibytesOf(*lit->bake, lit->runs.back()), 0,
-                      printedOf(line.mebibytes)},
-                     errorFigure(lit->error),
-                     biasFigure(lit->error)});
+            const auto figures = [&](const LitBake& lit) -> std::vector<PaperFigure> {
+                return {
+                    timeOf("update [ms]", lit.runs, {&RelightStats::totalMs}, printedOf(line.ms)),
+                    {"MiB", mebibytesOf(*lit.bake, lit.runs.back()), 0, printedOf(line.mebibytes)},
+                    errorFigure(lit.error),
+                    biasFigure(lit.error)};
             };
-            if (const Result<void> added = run.line("F8", name, measure); !added)
+            const BakeSettings settings =
+                glossySettings(mode, line.storage, line.bands, line.chroma);
+            if (const Result<void> added =
+                    litLine(run, kGlossyView, "F8", name, settings, true, figures);
+                !added)
                 return added;
         }
     return {};
@@ -130,21 +145,16 @@ Result<void> measureChrominance(PaperRun& run) {
         {{7, 7}, 7.61}, {{8, 7}, 11.89}, {{8, 8}, 10.35}};
     for (std::uint32_t bands = 2; bands <= 8; ++bands)
         for (std::uint32_t chroma = 2; chroma <= bands; ++chroma) {
-            const auto measure = [&]() -> Result<PaperLine> {
-                const Result<LitBake> lit =
-                    lightBake(run, kGlossyView,
-                              glossySettings(LinkMode::Limn, LinkStorage::Rtp, bands, chroma));
-                if (!lit)
-                    return tl::make_unexpected(lit.error());
-                return PaperLine{{},
-                                 {timeOf("caches [ms]", lit->runs, {&RelightStats::cacheLightMs},
-                                         kPrinted.at({bands, chroma})),
-                                  {"MiB", mebibytesOf(*lit->bake, lit->runs.back()), 0, {}},
-                                  errorFigure(lit->error)},
-                                 {}};
+            const auto figures = [&](const LitBake& lit) -> std::vector<PaperFigure> {
+                return {timeOf("caches [ms]", lit.runs, {&RelightStats::cacheLightMs},
+                               kPrinted.at({bands, chroma})),
+                        {"MiB", mebibytesOf(*lit.bake, lit.runs.back()), 0, {}},
+                        errorFigure(lit.error)};
             };
             if (const Result<void> added =
-                    run.line("T3", fmt::format("{}:{}", bands, chroma), measure);
+                    litLine(run, kGlossyView, "T3", fmt::format("{}:{}", bands, chroma),
+                            glossySettings(LinkMode::Limn, LinkStorage::Rtp, bands, chroma), false,
+                            figures);
                 !added)
                 return added;
         }
@@ -155,24 +165,21 @@ Result<void> measurePlacements(PaperRun& run) {
     for (const SurfelPlacement placement :
          {SurfelPlacement::Random, SurfelPlacement::Halton, SurfelPlacement::Relaxed})
         for (const LinkMode mode : kLinkModes) {
-            const auto measure = [&]() -> Result<PaperLine> {
-                BakeSettings settings = paperSettings2(mode);
-                settings.surfels = 30000;
-                settings.placement = placement;
-                const Result<LitBake> lit = lightBake(run, kSponzaView, settings);
-                if (!lit)
-                    return tl::make_unexpected(lit.error());
-                const SurfelSpacing spacing = surfelSpacing(lit->bake->surfels);
-                return PaperLine{{},
-                                 {{"mean distance", spacing.mean, 0, {}},
-                                  {"spread", spacing.spread, 0, {}},
-                                  errorFigure(lit->error),
-                                  biasFigure(lit->error)},
-                                 {}};
+            BakeSettings settings = paperSettings2(mode);
+            settings.surfels = 30000;
+            settings.placement = placement;
+            const auto figures = [](const LitBake& lit) -> std::vector<PaperFigure> {
+                const SurfelSpacing spacing = surfelSpacing(lit.bake->surfels);
+                return {{"mean distance", spacing.mean, 0, {}},
+                        {"spread", spacing.spread, 0, {}},
+                        errorFigure(lit.error),
+                        biasFigure(lit.error)};
             };
             const std::string name =
                 fmt::format("{}, {}", kPlacementNames[std::size_t(placement)], nameOf(mode));
-            if (const Result<void> added = run.line("F3", name, measure); !added)
+            if (const Result<void> added =
+                    litLine(run, kSponzaView, "F3", name, settings, false, figures);
+                !added)
                 return added;
         }
     return {};
@@ -191,23 +198,20 @@ Result<void> measureCounts(PaperRun& run) {
             for (const std::uint32_t links : {32U, 64U, 128U, 254U}) {
                 const std::string name =
                     fmt::format("{}k surfels, {} links, {}", surfels >> 10, links, nameOf(mode));
-                const auto measure = [&]() -> Result<PaperLine> {
-                    BakeSettings settings = paperSettings1(mode);
-                    settings.surfels = surfels;
-                    settings.links = links;
-                    const Result<LitBake> lit = lightBake(run, kSponzaView, settings);
-                    if (!lit)
-                        return tl::make_unexpected(lit.error());
-                    return withPicture(
-                        run, kSponzaView, "F10", name, lit->picture,
-                        {timeOf("surfels, pull [ms]", lit->runs,
-                                {&RelightStats::surfelLightMs, &RelightStats::pullMs},
-                                kPrinted.at(surfels)),
-                         timeOf("caches [ms]", lit->runs, {&RelightStats::cacheLightMs}),
-                         timeOf("all [ms]", lit->runs, {&RelightStats::totalMs}),
-                         errorFigure(lit->error), biasFigure(lit->error)});
+                BakeSettings settings = paperSettings1(mode);
+                settings.surfels = surfels;
+                settings.links = links;
+                const auto figures = [&](const LitBake& lit) -> std::vector<PaperFigure> {
+                    return {timeOf("surfels, pull [ms]", lit.runs,
+                                   {&RelightStats::surfelLightMs, &RelightStats::pullMs},
+                                   kPrinted.at(surfels)),
+                            timeOf("caches [ms]", lit.runs, {&RelightStats::cacheLightMs}),
+                            timeOf("all [ms]", lit.runs, {&RelightStats::totalMs}),
+                            errorFigure(lit.error), biasFigure(lit.error)};
                 };
-                if (const Result<void> added = run.line("F10", name, measure); !added)
+                if (const Result<void> added =
+                        litLine(run, kSponzaView, "F10", name, settings, true, figures);
+                    !added)
                     return added;
             }
     return {};
@@ -217,20 +221,16 @@ Result<void> measureSigns(PaperRun& run) {
     if (const Result<void> added = addReference(run, kSignsView, "F7"); !added)
         return added;
     for (const LinkMode mode : kLinkModes) {
-        const std::string name = nameOf(mode);
-        const auto measure = [&]() -> Result<PaperLine> {
-            BakeSettings settings = paperSettings1(mode);
-            settings.surfels = 40000;
-            settings.lightmapCaches = 13785;
-            const Result<LitBake> lit = lightBake(run, kSignsView, settings);
-            if (!lit)
-                return tl::make_unexpected(lit.error());
-            return withPicture(
-                run, kSignsView, "F7", name, lit->picture,
-                {timeOf("update [ms]", lit->runs, {&RelightStats::totalMs}, 1000. / 195),
-                 errorFigure(lit->error), biasFigure(lit->error)});
+        BakeSettings settings = paperSettings1(mode);
+        settings.surfels = 40000;
+        settings.lightmapCaches = 13785;
+        const auto figures = [](const LitBake& lit) -> std::vector<PaperFigure> {
+            return {timeOf("update [ms]", lit.runs, {&RelightStats::totalMs}, 1000. / 195),
+                    errorFigure(lit.error), biasFigure(lit.error)};
         };
-        if (const Result<void> added = run.line("F7", name, measure); !added)
+        if (const Result<void> added =
+                litLine(run, kSignsView, "F7", nameOf(mode), settings, true, figures);
+            !added)
             return added;
     }
     return {};
@@ -242,18 +242,16 @@ Result<void> measureSpot(PaperRun& run) {
     for (const LinkMode mode : kLinkModes)
         for (const std::uint32_t links : {32U, 128U}) {
             const std::string name = fmt::format("{} links, {}", links, nameOf(mode));
-            const auto measure = [&]() -> Result<PaperLine> {
-                BakeSettings settings = paperSettings2(mode);
-                settings.links = links;
-                const Result<LitBake> lit = lightBake(run, kSpotView, settings);
-                if (!lit)
-                    return tl::make_unexpected(lit.error());
-                return withPicture(run, kSpotView, "F9b", name, lit->picture,
-                                   {errorFigure(lit->error),
-                                    {"nRMSE without the worst 1 %", lit->error.nrmseTrimmed, 0, {}},
-                                    biasFigure(lit->error)});
+            BakeSettings settings = paperSettings2(mode);
+            settings.links = links;
+            const auto figures = [](const LitBake& lit) -> std::vector<PaperFigure> {
+                return {errorFigure(lit.error),
+                        {"nRMSE without the worst 1 %", lit.error.nrmseTrimmed, 0, {}},
+                        biasFigure(lit.error)};
             };
-            if (const Result<void> added = run.line("F9b", name, measure); !added)
+            if (const Result<void> added =
+                    litLine(run, kSpotView, "F9b", name, settings, true, figures);
+                !added)
                 return added;
         }
     return {};

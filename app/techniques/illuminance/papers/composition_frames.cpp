@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "app/bench/spread.h"
 #include "app/techniques/illuminance/frame_times.h"
 #include "app/techniques/illuminance/papers/composition.h"
 
@@ -12,21 +11,6 @@
 namespace limn {
 
 namespace {
-
-/// Median of a sum of passes over frames, with its 95th percentile over the median as the noise.
-PaperFigure passTime(const char* column, const std::vector<FrameTimes>& frames,
-                     std::initializer_list<double FrameTimes::*> passes,
-                     std::optional<double> printed = {}) {
-    std::vector<double> ms;
-    for (const FrameTimes& frame : frames) {
-        double sum = 0;
-        for (double FrameTimes::*pass : passes)
-            sum += frame.*pass;
-        ms.push_back(sum);
-    }
-    const Spread spread = spreadOf(ms);
-    return {column, spread.median, spread.p95 - spread.median, printed};
-}
 
 /// A size of pictures, and the printed times of shading [ms].
 struct Resolution {
@@ -66,13 +50,12 @@ Result<void> measureResolutions(PaperRun& run) {
                 using F = FrameTimes;
                 return PaperLine{
                     {},
-                    {passTime("shadow maps [ms]", drawn->frames, {&F::shadowMaps}),
-                     passTime("drawing [ms]", drawn->frames, {&F::geometry}),
-                     passTime("shading [ms]", drawn->frames,
-                              {&F::indirect, &F::direct, &F::tonemap},
-                              indirect ? size.with : size.without),
-                     passTime("relighting [ms]", drawn->frames,
-                              {&F::lightsOnSurfels, &F::surfels, &F::pull, &F::caches, &F::field}),
+                    {timeOf("shadow maps [ms]", drawn->frames, {&F::shadowMaps}),
+                     timeOf("drawing [ms]", drawn->frames, {&F::geometry}),
+                     timeOf("shading [ms]", drawn->frames, {&F::indirect, &F::direct, &F::tonemap},
+                            indirect ? size.with : size.without),
+                     timeOf("relighting [ms]", drawn->frames,
+                            {&F::lightsOnSurfels, &F::surfels, &F::pull, &F::caches, &F::field}),
                      {"MiB", double(drawn->bytes) / (1 << 20), 0, {}}},
                     {}};
             };
