@@ -27,10 +27,14 @@ WorldPoint texelPoint(const Scene& scene, const AtlasTexel& texel, std::uint32_t
     return p;
 }
 
+Ray rayAbove(const TraceScene& trace, const WorldPoint& point, float height) {
+    return {trace.clearOf(point.position, point.normal), point.normal, 0, 2 * height};
+}
+
 RaisedPoint raise(const TraceScene& trace, const WorldPoint& point, float height) {
-    const glm::vec3 from = trace.clearOf(point.position, point.normal);
-    const Hit above = trace.closestHit({from, point.normal, 0, 2 * height}, TraceMask::Static);
-    return {from + point.normal * (above ? above.t / 2 : height), bool(above)};
+    const Ray ray = rayAbove(trace, point, height);
+    const SurfaceHit above = trace.closestSurface(ray, TraceMask::Static);
+    return {ray.origin + ray.direction * (above ? above.t / 2 : height), bool(above)};
 }
 
 std::uint32_t seedOf(const Scene& scene, const AtlasTexel& texel) {

@@ -24,6 +24,9 @@ struct RaisedPoint {
     bool covered; ///< whether a static surface lies closely above
 };
 
+/// The ray that raise() traces: from a point, clear of its surface, to twice `height` [m] above it.
+Ray rayAbove(const TraceScene& trace, const WorldPoint& point, float height);
+
 /// Raises a point by `height` [m], or half way to the next static surface above where that is
 /// closer than twice the height, so that no thin object closely above is jumped over. Traces one
 /// ray.

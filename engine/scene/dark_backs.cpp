@@ -111,6 +111,16 @@ bool isShoneOnBehind(const Scene& scene, const PlacedSurface& placed) {
     });
 }
 
+/// Where the scene is seen from: by its cameras or, where it has none, by that of chooseCamera().
+std::vector<glm::dvec3> eyesOf(const Scene& scene) {
+    std::vector<glm::dvec3> eyes;
+    for (const Camera& camera : scene.cameras)
+        eyes.emplace_back(camera.eye);
+    if (eyes.empty())
+        eyes.emplace_back(chooseCamera(scene, std::nullopt).eye);
+    return eyes;
+}
+
 } // namespace
 
 bool PlacedSurface::isBehind(glm::dvec3 world) const {
@@ -132,14 +142,6 @@ std::vector<PlacedSurface> findClosedSurfaces(const Scene& scene) {
     return placed;
 }
 
-bool isSeenBehind(const Scene& scene, const PlacedSurface& placed) {
-    if (scene.cameras.empty())
-        return placed.isBehind(glm::dvec3(chooseCamera(scene, std::nullopt).eye));
-    return std::ranges::any_of(scene.cameras, [&](const Camera& camera) {
-        return placed.isBehind(glm::dvec3(camera.eye));
-    });
-}
-
 bool isLitBehind(const Scene& scene, const PlacedSurface& placed) {
     if (isShoneOnBehind(scene, placed))
         return true;
@@ -158,10 +160,14 @@ bool isLitBehind(const Scene& scene, const PlacedSurface& placed) {
 
 void leaveOutDarkBacks(Scene& scene) {
     const std::vector<PlacedSurface> surfaces = findClosedSurfaces(scene);
+    const std::vector<glm::dvec3> eyes = eyesOf(scene);
     std::vector<char> dark(surfaces.size());
     parallelRanges(surfaces.size(), 1, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k)
-            dark[k] = isSeenBehind(scene, surfaces[k]) || isLitBehind(scene, surfaces[k]) ? 0 : 1;
+        for (std::size_t k = begin; k < end; ++k) {
+            const bool seen = std::ranges::any_of(
+                eyes, [&](glm::dvec3 eye) { return surfaces[k].isBehind(eye); });
+            dark[k] = seen || isLitBehind(scene, surfaces[k]) ? 0 : 1;
+        }
     });
     std::vector<double> behind(scene.instances.size()); // area that faces the dark
     for (std::size_t k = 0; k < surfaces.size(); ++k)

@@ -25,16 +25,14 @@ struct PlacedSurface {
 /// belong to none.
 std::vector<PlacedSurface> findClosedSurfaces(const Scene& scene);
 
-/// Whether there is a camera behind a surface, or that of chooseCamera() in a scene without any.
-bool isSeenBehind(const Scene& scene, const PlacedSurface& placed);
-
 /// Whether anything behind a surface may light its back, or shows light there: a light, emissive
 /// triangles, the back itself where it is emissive, the middle of a dynamic object; behind a room
 /// also the sky and the sun. Lights count even where they are off, but a black sky does not.
 bool isLitBehind(const Scene& scene, const PlacedSurface& placed);
 
 /// Sets Instance::darkBacks of those two-sided static instances all of whose triangles belong to
-/// closed surfaces that are neither lit nor seen behind, and clears that of all others.
+/// closed surfaces that are neither lit nor seen behind, and clears that of all others. They are
+/// seen by the scene's cameras, or by that of chooseCamera() where it has none.
 void leaveOutDarkBacks(Scene& scene);
 
 } // namespace limn

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr char kMagic[8] = {'L', 'I', 'M', 'N', 'S', 'T', 'A', 'G'};
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kHeader = sizeof kMagic + 2 * 4 + 3 * 8;
 constexpr const char* kExtension = ".stage";
 

@@ -185,7 +185,7 @@ TEST(TransportFile, HolesLetThroughWhatTheyLetThroughInTheScene) {
     rehash(closed);
     for (const LightKind kind : {LightKind::Point, LightKind::Spot, LightKind::Rectangle}) {
         scene.lights = {lightOf(kind)};
-        scene.lights[0].position.x += 0.01f; // else a ray meets the very edge of a hole
+        scene.lights[0].position.x += 0.013f; // else a ray meets the very edge of a hole
         expectSame(errorsOf(OpenFile(bytes), scene, trace, baked));
         EXPECT_GT(errorsOf(OpenFile(closed), scene, trace, baked).radiosity, 0.01);
     }

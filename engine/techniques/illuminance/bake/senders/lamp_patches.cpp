@@ -33,19 +33,26 @@ double secondMoment(const Scene& scene, const Instance& instance, std::uint32_t 
     return sum / 36;
 }
 
-/// Point k of a patch, somewhere in a cell: a Halton point, shifted by a hash of `seed`. The half
-/// of a cell beyond the edge u + v = 1 is folded back onto the triangle.
+/// Point k of a patch, somewhere in a cell: a Halton point, shifted by a hash of `seed`. Of a cell
+/// that the triangle cuts, other shifts are tried until the point lies in the triangle.
 WorldPoint pointIn(const Scene& scene, const Instance& instance, const OwnedCell& cell,
                    std::uint32_t seed, std::uint32_t k) {
-    const glm::vec2 shift(unitFloat(mixBits(2 * seed)), unitFloat(mixBits(2 * seed + 1)));
-    glm::vec2 in = glm::fract(shift + glm::vec2(radicalInverse(k, 2), radicalInverse(k, 3)));
-    const glm::vec2 uv = cell.corner + cell.side * in;
-    if (uv.x + uv.y > 1)
-        in = glm::max(1.f - in, 0.f);
-    MeshPoint point{cell.triangle, cell.corner + cell.side * in};
-    if (const float sum = point.barycentric.x + point.barycentric.y; sum > 1)
-        point.barycentric /= sum;
-    WorldPoint result = worldPoint(scene, instance, point);
+    constexpr int kTries = 16;
+    // Steps between shifts that spread evenly. Roberts. The Unreasonable Effectiveness of
+    // Quasirandom Sequences. 2018
+    constexpr glm::vec2 kStep(0.754877666f, 0.569840291f);
+    const glm::vec2 shift(unitFloat(mixBits(2 * seed)), unitFloat(mixBits(2 * seed + 1))),
+        halton(radicalInverse(k, 2), radicalInverse(k, 3));
+    glm::vec2 place = cell.middle;
+    for (int i = 0; i < kTries; ++i) {
+        const glm::vec2 in = glm::fract(shift + halton + float(i) * kStep),
+                        uv = cell.origin + in.x * cell.across + in.y * cell.up;
+        if (isInTriangle(uv)) {
+            place = uv;
+            break;
+        }
+    }
+    WorldPoint result = worldPoint(scene, instance, {cell.triangle, place});
     if (cell.back)
         result.normal = -result.normal;
     return result;
@@ -64,9 +71,9 @@ void addCells(const Scene& scene, const SurfelSet& set, const OwnerTables& owner
     const Instance& placed = scene.instances[instance];
     const Mesh& mesh = scene.meshOf(placed);
     forOwnedCells(scene, owners, instance, [&](const OwnedCell& cell) {
-        const glm::vec2 middle = cell.corner + cell.side / 2;
         const glm::vec3 away =
-            glm::vec3(placed.toWorld * glm::vec4(trianglePoint(mesh, cell.triangle, middle), 1)) -
+            glm::vec3(placed.toWorld *
+                      glm::vec4(trianglePoint(mesh, cell.triangle, cell.middle), 1)) -
             set.surfels.position[cell.surfel];
         const double whole = double(triangleWorldArea(scene, placed, cell.triangle)),
                      share = whole > 0 ? cell.area / whole : 0;

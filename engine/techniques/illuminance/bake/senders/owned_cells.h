@@ -9,13 +9,13 @@
 
 namespace limn {
 
-/// A square of barycentrics on one side of a triangle that belongs to one surfel: a cell of the
-/// mesh's SurfelOwners or, where a wall crosses that, a part of it.
+/// A parallelogram of barycentrics on one side of a triangle that belongs to one surfel: a cell of
+/// the mesh's SurfelOwners or, where a wall crosses that, a part of it. The triangle may cut it.
 struct OwnedCell {
     std::uint32_t surfel, triangle;
-    bool back;        ///< of the two sides of the triangle
-    glm::vec2 corner; ///< (u, v) of the corner of least u and v
-    float side;       ///< along u and v
+    bool back;                    ///< of the two sides of the triangle
+    glm::vec2 origin, across, up; ///< (u, v) of a corner, and the sides that end there
+    glm::vec2 middle; ///< (u, v) of the middle of what lies in the triangle, or of the cell's
     double area;      ///< of its share of the triangle [m^2]
 };
 
@@ -28,16 +28,18 @@ void forOwnedCells(const Scene& scene, const OwnerTables& owners, std::uint32_t 
     for (std::uint32_t t = 0; t < scene.meshOf(placed).triangleCount(); ++t) {
         const auto area = double(triangleWorldArea(scene, placed, t));
         owners.tableOf(placed.mesh).forCellsOf(t, [&](const SurfelOwners::Cell& c) {
-            const glm::vec2 corner = c.middle - c.side / 2;
             for (std::uint32_t back = 0; back < sides; ++back) {
                 const bool split = owners.isSplit(instance, c.index, back != 0);
-                const std::uint32_t across = split ? SurfelOwners::kAcross : 1;
-                const float side = c.side / float(across);
-                for (std::uint32_t part = 0; part < across * across; ++part)
+                const std::uint32_t parts = split ? SurfelOwners::kAcross : 1;
+                for (std::uint32_t part = 0; part < parts * parts; ++part) {
+                    const glm::vec2 corner = glm::vec2(part % parts, part / parts) / float(parts),
+                                    middle = c.at(corner + 0.5f / float(parts));
+                    const bool holds = split && isInTriangle(middle);
                     visit(OwnedCell{owners.ofCell(instance, {c.index, part}, back != 0), t,
-                                    back != 0,
-                                    corner + side * glm::vec2(part % across, part / across), side,
-                                    c.share * area / (across * across)});
+                                    back != 0, c.at(corner), c.across / float(parts),
+                                    c.up / float(parts), holds ? middle : c.middle(),
+                                    c.share * area / (parts * parts)});
+                }
             }
         });
     }

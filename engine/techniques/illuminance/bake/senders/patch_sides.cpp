@@ -7,6 +7,7 @@
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
 #include "engine/techniques/illuminance/bake/senders/owner_tables.h"
 #include "engine/trace/clear_along.h"
+#include "engine/trace/rays_together.h"
 
 #include <algorithm>
 #include <array>
@@ -24,7 +25,18 @@ namespace limn {
 namespace {
 
 constexpr float kHeight = 0.25f;   ///< above the surface at which segments run [spacings]
-constexpr float kToCorner = 0.45f; ///< from a cell's middle, along u and v [cells]
+constexpr float kToCorner = 0.45f; ///< from a cell's middle, along its sides [cells]
+
+/// A cell on one side of an instance that is to be given to a surfel.
+struct CellToOwn {
+    SurfelOwners::Cell cell;
+    std::uint32_t triangle;
+    std::uint32_t surfel; ///< the nearest on this side, index into MeshSurfels
+    bool back;
+    RaisedPoint from{glm::vec3(0), true}; ///< the middle, raised
+
+    MeshPoint middle() const { return {triangle, cell.middle()}; }
+};
 
 /// The patches of one instance.
 struct Patches {
@@ -43,11 +55,11 @@ struct Patches {
         return kHeight * std::sqrt(set.surfels.area[set.instanceBegin[instance] + surfel]);
     }
     void raiseSurfels();
+    WorldPoint placeOf(const MeshPoint& point, bool back) const;
     RaisedPoint raisedPoint(const MeshPoint& point, bool back, float height) const;
-    RaisedPoint raisedCell(const MeshPoint& middle, float size, bool back, float height) const;
+    void raiseCells(std::span<CellToOwn> cells) const;
     bool onSameSide(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t surfel) const;
-    std::uint32_t ownerOf(const MeshPoint& middle, float size, std::uint32_t nearestOwner,
-                          bool back) const;
+    void findOwners(std::span<CellToOwn> cells, std::span<std::uint32_t> owner) const;
     std::uint32_t ownerAt(const MeshPoint& point, const RaisedPoint& from,
                           std::uint32_t nearestOwner, bool back) const;
     std::uint32_t ownerOfPart(const MeshPoint& point, std::uint32_t ownerOfCell, bool back) const;
@@ -66,32 +78,17 @@ void Patches::raiseSurfels() {
     rays += raised.size();
 }
 
-RaisedPoint Patches::raisedPoint(const MeshPoint& point, bool back, float height) const {
+WorldPoint Patches::placeOf(const MeshPoint& point, bool back) const {
     const Scene& scene = trace.scene();
     WorldPoint p = worldPoint(scene, scene.instances[instance], point);
     if (back)
         p.normal = -p.normal;
-    ++rays;
-    return raise(trace, p, height);
+    return p;
 }
 
-/// A place of a cell: its middle or, where that is covered, one closer to the corners that is not.
-RaisedPoint Patches::raisedCell(const MeshPoint& middle, float size, bool back,
-                                float height) const {
-    constexpr std::array<glm::vec2, 5> kPlaces = {glm::vec2(0), glm::vec2(-1), glm::vec2(1, -1),
-                                                  glm::vec2(-1, 1), glm::vec2(1)};
-    std::optional<RaisedPoint> first;
-    for (const glm::vec2 place : kPlaces) {
-        const glm::vec2 uv = middle.barycentric + place * (kToCorner * size);
-        if (uv.x + uv.y > 1)
-            continue;
-        const RaisedPoint point = raisedPoint({middle.triangle, uv}, back, height);
-        if (!point.covered)
-            return point;
-        if (!first)
-            first = point;
-    }
-    return *first;
+RaisedPoint Patches::raisedPoint(const MeshPoint& point, bool back, float height) const {
+    ++rays;
+    return raise(trace, placeOf(point, back), height);
 }
 
 bool Patches::onSameSide(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t surfel) const {
@@ -102,34 +99,88 @@ bool Patches::onSameSide(const RaisedPoint& cell, glm::vec3 normal, std::uint32_
     });
 }
 
-std::uint32_t Patches::ownerOf(const MeshPoint& middle, float size, std::uint32_t nearestOwner,
-                               bool back) const {
-    const std::uint32_t first = back ? surfels().frontCount : 0;
-    return ownerAt(middle, raisedCell(middle, size, back, heightOf(first + nearestOwner)),
-                   nearestOwner, back);
+/// Raises a place of each cell: its middle or, where that is covered, one closer to the corners
+/// that is not.
+void Patches::raiseCells(std::span<CellToOwn> cells) const {
+    constexpr std::array<glm::vec2, 4> kToCorners = {glm::vec2(-1), glm::vec2(1, -1),
+                                                     glm::vec2(-1, 1), glm::vec2(1)};
+    struct Top {
+        CellToOwn* cell;
+        glm::vec3 position;
+    };
+    RaysTogether<Top> up(trace, TraceMask::Static);
+    const auto open = [](const Top& top) {
+        if (top.cell->from.covered)
+            top.cell->from = {top.position, false};
+    };
+    const auto look = [&](CellToOwn& cell, glm::vec2 uv) {
+        const float height = heightOf(cell.surfel);
+        const Ray ray = rayAbove(trace, placeOf({cell.triangle, uv}, cell.back), height);
+        up.add(ray, {&cell, ray.origin + height * ray.direction}, open);
+    };
+    for (CellToOwn& cell : cells)
+        look(cell, cell.cell.middle());
+    up.flush(open);
+    std::vector<CellToOwn*> covered;
+    for (CellToOwn& cell : cells)
+        if (cell.from.covered)
+            covered.push_back(&cell);
+    for (CellToOwn* cell : covered)
+        for (const glm::vec2 corner : kToCorners)
+            if (const glm::vec2 uv =
+                    cell->cell.at(cell->cell.inside * (1.f + 2 * kToCorner * corner));
+                isInTriangle(uv))
+                look(*cell, uv);
+    up.flush(open);
+    rays += up.traced();
+    for (CellToOwn* cell : covered)
+        if (cell->from.covered)
+            cell->from = raisedPoint(cell->middle(), cell->back, heightOf(cell->surfel));
+}
+
+/// Writes the surfels that own `cells` to `owner`, the entries of partedOwners(). Most cells lie on
+/// the side of the surfel nearest to them: rays that are traced together tell which do, and only
+/// the others are asked about one by one.
+void Patches::findOwners(std::span<CellToOwn> cells, std::span<std::uint32_t> owner) const {
+    raiseCells(cells);
+    const auto entry = [&](const CellToOwn& cell) -> std::uint32_t& {
+        return owner[cell.cell.index + (cell.back ? owners.cells() : 0)];
+    };
+    constexpr std::uint32_t kBehind = ~0U;
+    RaysTogether<CellToOwn*> along(trace, TraceMask::Static);
+    const auto isBeside = [&](CellToOwn* cell) { entry(*cell) = cell->surfel; };
+    for (CellToOwn& cell : cells) {
+        entry(cell) = kBehind;
+        along.add(rayBetween(cell.from.position, raised[cell.surfel]), &cell, isBeside);
+    }
+    along.flush(isBeside);
+    rays += along.traced();
+    for (const CellToOwn& cell : cells)
+        if (entry(cell) == kBehind)
+            entry(cell) = ownerAt(cell.middle(), cell.from, cell.surfel, cell.back);
 }
 
 /// The surfel on the same side of all walls as a point, which is raised to `from`: the nearest one,
-/// or one of a few others, or the nearest again where all are behind walls. `nearestOwner` is the
-/// index of the nearest surfel on the front, also if `back`: surfels of both sides have the same
-/// places.
+/// or one of a few others, or the nearest again where all are behind walls.
 std::uint32_t Patches::ownerAt(const MeshPoint& point, const RaisedPoint& from,
                                std::uint32_t nearestOwner, bool back) const {
     constexpr std::size_t kCompared = 8;
     const Scene& scene = trace.scene();
+    // Surfels of both sides have the same places.
     const std::uint32_t first = back ? surfels().frontCount : 0;
     const glm::vec3 normal = worldPoint(scene, scene.instances[instance], point).normal;
-    if (onSameSide(from, normal, first + nearestOwner))
-        return first + nearestOwner;
+    if (onSameSide(from, normal, nearestOwner))
+        return nearestOwner;
     const Mesh& mesh = scene.meshOf(scene.instances[instance]);
     std::array<NearestPoint::Near, kCompared> near;
     const std::size_t count =
         nearest.findSome(trianglePoint(mesh, point.triangle, point.barycentric),
                          triangleNormal(mesh, point.triangle), near);
     for (std::size_t k = 0; k < count; ++k)
-        if (near[k].point != nearestOwner && onSameSide(from, normal, first + near[k].point))
+        if (first + near[k].point != nearestOwner &&
+            onSameSide(from, normal, first + near[k].point))
             return first + near[k].point;
-    return first + nearestOwner;
+    return nearestOwner;
 }
 
 /// The owner of a part of a cell: that of the cell, unless a wall stands between the two.
@@ -138,39 +189,55 @@ std::uint32_t Patches::ownerOfPart(const MeshPoint& point, std::uint32_t ownerOf
     const RaisedPoint from = raisedPoint(point, back, heightOf(ownerOfCell));
     if (from.covered)
         return ownerOfCell;
-    return ownerAt(point, from, ownerOfCell - (back ? surfels().frontCount : 0), back);
+    return ownerAt(point, from, ownerOfCell, back);
 }
 
 /// Owners of all cells, fronts first; empty where no wall splits any patch.
 std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& progress) {
+    constexpr std::size_t kTogether = 1024;
     const Scene& scene = patches.trace.scene();
     const Instance& instance = scene.instances[patches.instance];
     const Mesh& mesh = scene.meshOf(instance);
     const SurfelOwners& owners = patches.owners;
-    const std::uint32_t sides = isTwoSided(scene, instance) ? 2 : 1;
+    const std::uint32_t sides = isTwoSided(scene, instance) ? 2 : 1,
+                        backs = patches.surfels().frontCount;
     std::vector<std::uint32_t> result(std::size_t(owners.cells()) * sides);
     // Cells that no place lies in stay with the first surfel of their side.
-    std::fill(result.begin() + owners.cells(), result.end(), patches.surfels().frontCount);
+    std::fill(result.begin() + owners.cells(), result.end(), backs);
     std::atomic<bool> differs = false;
-    owners.forTriangles(mesh, progress, [&](std::uint32_t t) {
-        for (std::uint32_t side = 0; side < sides; ++side) {
-            const std::uint32_t first = side * patches.surfels().frontCount;
-            owners.forCellsOf(t, [&](const SurfelOwners::Cell& cell) {
-                const auto size = float(std::sqrt(cell.share / 2)); // smaller where it is cut
-                const std::uint32_t near = owners.front(cell.index),
-                                    surfel = patches.ownerOf({t, cell.middle * 0.999f}, size, near,
-                                                             side == 1);
-                result[side * owners.cells() + cell.index] = surfel;
-                if (surfel != first + near)
+    owners.forTriangles(mesh, progress, [&](std::uint32_t begin, std::uint32_t end) {
+        std::vector<CellToOwn> cells;
+        const auto finish = [&] {
+            patches.findOwners(cells, result);
+            for (const CellToOwn& cell : cells)
+                if (result[cell.cell.index + (cell.back ? owners.cells() : 0)] != cell.surfel)
                     differs = true;
-            });
-        }
+            cells.clear();
+        };
+        for (std::uint32_t side = 0; side < sides; ++side)
+            for (std::uint32_t t = begin; t < end; ++t)
+                owners.forCellsOf(t, [&](const SurfelOwners::Cell& cell) {
+                    cells.push_back({cell, t, side * backs + owners.front(cell.index), side == 1});
+                    if (cells.size() == kTogether)
+                        finish();
+                });
+        finish();
     });
     return differs ? std::move(result) : std::vector<std::uint32_t>();
 }
 
 /// By two indices into MeshSurfels, the smaller one first: whether no wall stands between them.
 using PairsOnSameSide = std::map<std::pair<std::uint32_t, std::uint32_t>, bool>;
+
+/// Barycentrics of a place of the cell that lies `step` [cells] from another; none where that cell
+/// hardly meets the triangle.
+std::optional<glm::vec2> placeBeside(const SurfelOwners::Cell& cell, glm::vec2 step) {
+    // A cell that the triangle cuts has its share of it near its first corner.
+    for (const float from : {1.f, 0.5f, 0.25f, 0.125f})
+        if (const glm::vec2 uv = cell.at(step + from * cell.inside); isInTriangle(uv))
+            return uv;
+    return {};
+}
 
 /// Whether a wall may cross a cell: a wall stands between its owner and that of a cell beside it on
 /// the triangle. Answers for pairs of owners are kept in `pairs`.
@@ -181,23 +248,22 @@ bool mayBeCrossed(const Patches& patches, const std::vector<std::uint32_t>& owne
     const std::uint32_t side = back ? owners.cells() : 0, surfel = owner[side + cell.index];
     const Surfels& s = patches.set.surfels;
     const std::uint32_t first = patches.set.instanceBegin[patches.instance];
-    for (const glm::vec2 step :
-         {glm::vec2(1, 0), glm::vec2(-1, 0), glm::vec2(0, 1), glm::vec2(0, -1)}) {
-        const glm::vec2 uv = cell.middle + cell.side * step;
-        if (!(uv.x > 0 && uv.y > 0 && uv.x + uv.y < 1))
-            continue;
-        const std::uint32_t beside = owner[side + owners.cellAt(triangle, uv.x, uv.y).cell];
+    const auto isParted = [&](glm::vec2 step) {
+        const std::optional<glm::vec2> uv = placeBeside(cell, step);
+        const std::uint32_t beside =
+            uv ? owner[side + owners.cellAt(triangle, uv->x, uv->y).cell] : surfel;
         if (beside == surfel)
-            continue;
+            return false;
         const auto [pair, isNew] = pairs.try_emplace(std::minmax(surfel, beside));
         if (isNew)
             pair->second =
                 patches.onSameSide({patches.raised[pair->first.first], false},
                                    s.normal[first + pair->first.first], pair->first.second);
-        if (!pair->second)
-            return true;
-    }
-    return false;
+        return !pair->second;
+    };
+    return isParted({1, 0}) || isParted({-1, 0}) || isParted({0, 1}) || isParted({0, -1}) ||
+           // A cell that the triangle cuts may have none beyond it on its row or column.
+           (cell.inside < 0.5f && (isParted({1, -1}) || isParted({-1, 1})));
 }
 
 /// Splits the cells that a wall crosses. `owner`: from partedOwners(). Returns PatchSides::parts of
@@ -216,31 +282,37 @@ std::vector<std::uint32_t> splitCells(const Patches& patches, const Progress& pr
     std::mutex mutex;
     const auto split = [&](std::uint32_t t, const SurfelOwners::Cell& cell, bool back) {
         const std::uint32_t entry = cell.index + (back ? owners.cells() : 0), surfel = owner[entry];
-        const auto ownerAt = [&](glm::vec2 offset) { // [cells] from the middle
-            const glm::vec2 uv = cell.middle + offset * cell.side;
-            return uv.x + uv.y < 1 ? patches.ownerOfPart({t, uv}, surfel, back) : surfel;
+        const auto ownerAt = [&](glm::vec2 place) {
+            const glm::vec2 uv = cell.at(place);
+            return isInTriangle(uv) ? patches.ownerOfPart({t, uv}, surfel, back) : surfel;
         };
         bool crossed = false;
-        for (const float x : {-kToCorner, kToCorner})
-            for (const float y : {-kToCorner, kToCorner})
+        for (const float x : {0.5f - kToCorner, 0.5f + kToCorner})
+            for (const float y : {0.5f - kToCorner, 0.5f + kToCorner})
                 crossed = crossed || ownerAt({x, y}) != surfel;
         if (!crossed)
             return;
         Parts parts;
         for (std::uint32_t k = 0; k < kParts; ++k)
-            parts[k] = ownerAt(
-                (glm::vec2(float(k % kAcross), float(k / kAcross)) + 0.5f) / float(kAcross) - 0.5f);
+            parts[k] = ownerAt((glm::vec2(float(k % kAcross), float(k / kAcross)) + 0.5f) /
+                               float(kAcross));
+        if (std::ranges::count(parts, surfel) == std::ptrdiff_t(kParts))
+            return;
         const std::lock_guard lock(mutex);
         found.emplace(entry, parts);
     };
-    owners.forTriangles(scene.meshOf(instance), progress, [&](std::uint32_t t) {
-        PairsOnSameSide pairs;
-        owners.forCellsOf(t, [&](const SurfelOwners::Cell& cell) {
-            for (const bool back : {false, true})
-                if ((!back || twoSided) && mayBeCrossed(patches, owner, t, cell, back, pairs))
-                    split(t, cell, back);
-        });
-    });
+    owners.forTriangles(scene.meshOf(instance), progress,
+                        [&](std::uint32_t begin, std::uint32_t end) {
+                            for (std::uint32_t t = begin; t < end; ++t) {
+                                PairsOnSameSide pairs;
+                                owners.forCellsOf(t, [&](const SurfelOwners::Cell& cell) {
+                                    for (const bool back : {false, true})
+                                        if ((!back || twoSided) &&
+                                            mayBeCrossed(patches, owner, t, cell, back, pairs))
+                                            split(t, cell, back);
+                                });
+                            }
+                        });
     std::vector<std::uint32_t> result;
     for (const auto& [cell, parts] : found) {
         owner[cell] = PatchSides::kSplit | std::uint32_t(result.size() / kParts);

@@ -17,6 +17,11 @@ namespace limn {
 /// Finds the nearest of a mesh's surfels on front sides. Keeps references to them.
 NearestPoint nearestFront(const MeshSurfels& surfels);
 
+/// Whether barycentrics (u, v) are those of a point of the triangle.
+inline bool isInTriangle(glm::vec2 uv) {
+    return uv.x >= 0 && uv.y >= 0 && uv.x + uv.y <= 1;
+}
+
 /// Finds the surfel that stands for a point of a mesh, from tables of triangle cells that hold the
 /// nearest surfel of like normal.
 class SurfelOwners {
@@ -38,28 +43,40 @@ public:
     /// The place in the table at barycentrics (u, v) of a triangle.
     Place cellAt(std::uint32_t triangle, float u, float v) const {
         const glm::uvec2 densityCell = m_density.cellAt(triangle, {u, v});
-        const auto side = float(m_density.side(triangle));
+        const std::uint32_t side = m_density.side(triangle);
         const Block& block = m_blocks[blockOf(triangle, densityCell)];
-        const std::uint32_t n = block.resolution;
         const auto step = [](float x, std::uint32_t steps) { // rounding may leave [0, 1)
             return std::min(std::uint32_t(std::max(x * float(steps), 0.f)), steps - 1);
         };
-        const glm::vec2 in = glm::vec2(u, v) * side - glm::vec2(densityCell);
-        const std::uint32_t i = step(in.x, n),
-                            j = std::min(step(in.y, n), last(densityCell, side, n, i));
-        return {block.begin + j * n + i, step(in.y * float(n) - float(j), kAcross) * kAcross +
-                                             step(in.x * float(n) - float(i), kAcross)};
+        const float w = 1 - u - v;
+        const glm::vec2 in = side > 1 ? glm::vec2(u, v) * float(side) - glm::vec2(densityCell)
+                             : block.corner == 0 ? glm::vec2(u, v)
+                             : block.corner == 1 ? glm::vec2(v, w)
+                                                 : glm::vec2(w, u);
+        const std::uint32_t i = step(in.x, block.across),
+                            j = std::min(step(in.y, block.up),
+                                         last(block, isWhole(densityCell, side), i));
+        return {block.begin + j * block.across + i,
+                step(in.y * float(block.up) - float(j), kAcross) * kAcross +
+                    step(in.x * float(block.across) - float(i), kAcross)};
     }
     std::uint32_t cells() const { return std::uint32_t(m_owner.size()); }
-    /// Calls visit(triangle) for all triangles of the mesh, in parallel, unless cancelled.
+    /// Calls visit(first, last) for ranges of triangles that cover the mesh, in parallel, unless
+    /// cancelled. The ranges are the same for any number of threads.
     void forTriangles(const Mesh& mesh, const Progress& progress,
-                      const std::function<void(std::uint32_t)>& visit) const;
+                      const std::function<void(std::uint32_t, std::uint32_t)>& visit) const;
 
+    /// A parallelogram of barycentrics (u, v). The triangle may cut it.
     struct Cell {
         std::uint32_t index;
-        glm::vec2 middle; ///< (u, v)
-        float side;       ///< along u and v, of the whole cell
-        double share; ///< of the triangle's area, where the triangle cuts it less than the whole
+        glm::vec2 origin, across, up; ///< a corner in the triangle, and the sides that end there
+        float inside; ///< of the cell's diagonal from `origin`, where the middle of its part in the
+                      ///< triangle lies; 1/2: the cell is not cut
+        double share; ///< of the triangle's area that lies in the cell
+
+        /// Barycentrics of a place of the cell, whose corners are (0, 0) and (1, 1).
+        glm::vec2 at(glm::vec2 place) const { return origin + place.x * across + place.y * up; }
+        glm::vec2 middle() const { return at(glm::vec2(inside)); }
     };
     /// Calls visit(Cell) for the cells that meet a triangle; the shares sum to 1.
     template <class Visit>
@@ -67,17 +84,10 @@ public:
         const std::uint32_t side = m_density.side(triangle);
         forCells(side, [&](glm::uvec2 densityCell) {
             const Block& block = m_blocks[blockOf(triangle, densityCell)];
-            const std::uint32_t n = block.resolution;
-            const double square = 2 / (double(side) * side * n * n);
-            const auto width = float(std::sqrt(square / 2));
-            for (std::uint32_t j = 0; j < n; ++j)
-                for (std::uint32_t i = 0; i < n && j <= last(densityCell, float(side), n, i); ++i) {
-                    const glm::vec2 middle = (glm::vec2(float(i), float(j)) + 0.5f) / float(n);
-                    const bool cut = densityCell.x + densityCell.y + 1 == side && i + j + 1 == n;
-                    visit(Cell{block.begin + j * n + i,
-                               (glm::vec2(densityCell) + middle) / float(side), width,
-                               cut ? square / 2 : square});
-                }
+            const bool whole = isWhole(densityCell, side);
+            for (std::uint32_t i = 0; i < block.across; ++i)
+                for (std::uint32_t j = 0; j <= last(block, whole, i); ++j)
+                    visit(cellOf(block, densityCell, side, i, j));
         });
     }
     std::uint32_t frontCount() const { return m_frontCount; }
@@ -99,20 +109,30 @@ public:
     }
 
 private:
-    /// The cells in one cell of the density.
+    /// The cells in one cell of the density: `across` along u, `up` along v. Triangles that are
+    /// undivided count u and v from `corner`, which is opposite to their longest side, so that
+    /// cells along both others are least in number.
     struct Block {
         std::uint32_t begin;
-        std::uint32_t resolution; ///< cells along u and v
+        std::uint32_t corner;
+        std::uint16_t across, up;
     };
 
     std::uint32_t blockOf(std::uint32_t triangle, glm::uvec2 densityCell) const {
         return m_density.uniform() ? triangle : m_density.cell(triangle, densityCell);
     }
-    /// The last cell of column i that meets the triangle.
-    static std::uint32_t last(glm::uvec2 densityCell, float side, std::uint32_t n,
-                              std::uint32_t i) {
-        return float(densityCell.x + densityCell.y + 1) < side ? n - 1 : n - 1 - i;
+    /// Whether a cell of the density lies wholly in its triangle, which has `side` along a side.
+    static bool isWhole(glm::uvec2 densityCell, std::uint32_t side) {
+        return densityCell.x + densityCell.y + 1 < side;
     }
+    /// The last cell of column i that meets the triangle.
+    static std::uint32_t last(const Block& block, bool whole, std::uint32_t i) {
+        return (whole ? block.up
+                      : (block.up * (block.across - i) + block.across - 1) / block.across) -
+               1;
+    }
+    static Cell cellOf(const Block& block, glm::uvec2 densityCell, std::uint32_t side,
+                       std::uint32_t i, std::uint32_t j);
     /// Whether the blocks that are read lie within m_owner.
     bool blocksLieWithin(const Mesh& mesh) const;
     void sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels);

@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel.h"
 #include "engine/math/sampling.h"
+#include "engine/scene/mesh/triangle_geometry.h"
 #include "engine/techniques/illuminance/bake/receivers/cache_points.h"
 #include "engine/techniques/illuminance/bake/senders/owner_tables.h"
 #include "tests/techniques/illuminance/bake/parted_hall.h"
@@ -17,7 +18,18 @@
 namespace limn::patch_sides_test {
 namespace {
 
-constexpr float kWall = 3.7f;
+constexpr float kWall = 3.75f; ///< not at a border of cells
+
+/// The longest side of a mesh's cells on a triangle [m].
+float cellWidth(const Mesh& mesh, const SurfelOwners& owners, std::uint32_t triangle) {
+    float width = 0;
+    owners.forCellsOf(triangle, [&](const SurfelOwners::Cell& cell) {
+        const glm::vec3 from = trianglePoint(mesh, triangle, cell.at({0, 0}));
+        for (const glm::vec2 to : {glm::vec2(1, 0), glm::vec2(0, 1)})
+            width = std::max(width, glm::length(trianglePoint(mesh, triangle, cell.at(to)) - from));
+    });
+    return width;
+}
 
 /// Of random points of the hall whose distance from the wall is at least `from` times the width of
 /// a cell of the table: how many belong to surfels beyond the wall.
@@ -27,17 +39,14 @@ int beyondWall(const Scene& scene, const SurfelSet& set, const OwnerTables& owne
     std::uniform_real_distribution<float> unit(0, 1);
     const Mesh& mesh = scene.assets->meshes[0];
     int beyond = 0;
-    std::vector<float> side; // cells along a triangle's sides: of n, n (n + 1) / 2 meet it
-    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
-        float cells = 0;
-        owners.tableOf(0).forCellsOf(t, [&](const SurfelOwners::Cell&) { ++cells; });
-        side.push_back(std::floor(std::sqrt(2 * cells)));
-    }
+    std::vector<float> width;
+    for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
+        width.push_back(cellWidth(mesh, owners.tableOf(0), t));
     for (int i = 0; i < 20000; ++i) {
         const auto t = std::uint32_t(rng() % mesh.triangleCount());
         const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
         const float x = worldPoint(scene, scene.instances[0], {t, uv}).position.x,
-                    cells = std::max(kWall - x, x - kWall - wall) * side[t] / 8;
+                    cells = std::max(kWall - x, x - kWall - wall) / width[t];
         if (cells < from)
             continue;
         const std::uint32_t owner = owners.surfelAt(0, t, uv.x, uv.y, false);
@@ -49,7 +58,7 @@ int beyondWall(const Scene& scene, const SurfelSet& set, const OwnerTables& owne
 
 TEST(PatchSides, PatchesEndAtWalls) {
     for (const float wall : {0.f, 0.01f, 0.1f}) {
-        const Scene scene = partedHall(wall, 500);
+        const Scene scene = partedHall(wall, 500, kWall);
         const TraceScene trace(scene);
         const SurfelSet set = placeSurfels(scene, 500);
         OwnerTables owners(scene, set);
@@ -78,7 +87,7 @@ PatchSides withWholeCells(PatchSides sides) {
 // belong to surfels beyond it.
 TEST(PatchSides, CellsThatAWallCrossesAreSplit) {
     for (const float wall : {0.f, 0.01f}) {
-        const Scene scene = partedHall(wall, 500);
+        const Scene scene = partedHall(wall, 500, kWall);
         const TraceScene trace(scene);
         const SurfelSet set = placeSurfels(scene, 500);
         OwnerTables owners(scene, set);
@@ -128,9 +137,7 @@ Strangers acrossPlateEdge(const Scene& scene, const SurfelSet& set, const OwnerT
     const Mesh& mesh = scene.assets->meshes[0];
     Strangers result;
     for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
-        float cells = 0;
-        owners.tableOf(0).forCellsOf(t, [&](const SurfelOwners::Cell&) { ++cells; });
-        const float cell = 8 / std::floor(std::sqrt(2 * cells));
+        const float cell = cellWidth(mesh, owners.tableOf(0), t);
         for (int i = 0; i < 20000; ++i) {
             const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
             const glm::vec3 p = worldPoint(scene, scene.instances[0], {t, uv}).position;

@@ -192,6 +192,85 @@ TEST(SurfelOwners, GiveANearbySurfelOfTheSameFace) {
     }
 }
 
+/// A triangle of right angle at each of its corners in turn, a needle, an obtuse one, and one that
+/// is almost a line.
+std::vector<Mesh> hardTriangles() {
+    const std::vector<std::array<glm::vec3, 3>> corners = {
+        {glm::vec3(0), {7, 0, 0}, {0, 2, 0}},
+        {glm::vec3(7, 0, 0), {0, 2, 0}, glm::vec3(0)},
+        {glm::vec3(0, 2, 0), glm::vec3(0), {7, 0, 0}},
+        {glm::vec3(0), {9, 0, 0}, {9, 0.01f, 0}},
+        {glm::vec3(0), {5, 0, 0}, {2, 0.3f, 0}},
+        {glm::vec3(0), {3, 3, 0}, {1, 1.0001f, 0}}};
+    std::vector<Mesh> meshes;
+    for (const std::array<glm::vec3, 3>& c : corners) {
+        Mesh mesh;
+        mesh.positions.assign(c.begin(), c.end());
+        mesh.normals.assign(3, glm::vec3(0, 0, 1));
+        mesh.indices = {0, 1, 2};
+        meshes.push_back(mesh);
+    }
+    return meshes;
+}
+
+TEST(SurfelOwners, CellsCoverTheirTriangleOnce) {
+    std::mt19937 rng(3);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (const Mesh& mesh : hardTriangles()) {
+        const SurfelOwners owners(mesh, placeSurfels(mesh, 50, false, SurfelPlacement::Relaxed));
+        std::vector<SurfelOwners::Cell> cells(owners.cells());
+        std::vector<int> seen(owners.cells());
+        double sum = 0;
+        owners.forCellsOf(0, [&](const SurfelOwners::Cell& cell) {
+            EXPECT_GT(cell.share, 0);
+            sum += cell.share;
+            ++seen[cell.index];
+            cells[cell.index] = cell;
+            const glm::vec2 uv = cell.middle();
+            EXPECT_GT(std::min({uv.x, uv.y, 1 - uv.x - uv.y}), 0) << cell.index;
+            EXPECT_EQ(owners.cellAt(0, uv.x, uv.y).cell, cell.index);
+        });
+        EXPECT_NEAR(sum, 1, 1e-12);
+        EXPECT_LE(*std::ranges::max_element(seen), 1);
+        constexpr int kPoints = 40000;
+        std::vector<int> found(owners.cells());
+        for (int i = 0; i < kPoints; ++i) {
+            const glm::vec2 uv = sampleTriangle({unit(rng), unit(rng)});
+            const SurfelOwners::Place place = owners.cellAt(0, uv.x, uv.y);
+            ASSERT_EQ(seen[place.cell], 1);
+            ++found[place.cell];
+            // The place lies in the cell, and in the part of it.
+            const SurfelOwners::Cell& cell = cells[place.cell];
+            const glm::vec2 way = uv - cell.origin;
+            const glm::vec2 in = glm::inverse(glm::mat2(cell.across, cell.up)) * way;
+            EXPECT_NEAR(in.x, 0.5, 0.5 + 1e-3);
+            EXPECT_NEAR(in.y, 0.5, 0.5 + 1e-3);
+            constexpr std::uint32_t kAcross = SurfelOwners::kAcross;
+            const glm::vec2 part =
+                (glm::vec2(place.part % kAcross, place.part / kAcross) + 0.5f) / float(kAcross);
+            EXPECT_NEAR(in.x, part.x, 0.125 + 1e-3);
+            EXPECT_NEAR(in.y, part.y, 0.125 + 1e-3);
+        }
+        for (std::size_t c = 0; c < found.size(); ++c)
+            if (seen[c] > 0) {
+                EXPECT_NEAR(found[c], kPoints * cells[c].share,
+                            6 * std::sqrt(kPoints * cells[c].share) + 1)
+                    << c;
+            }
+    }
+}
+
+// A quarter of the surfels' spacing is the side of a cell. It takes two for each of the least number,
+// of which the triangle covers half, wherever its right angle is.
+TEST(SurfelOwners, CellsAreAsManyAsTheAreaNeeds) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+        const Mesh mesh = hardTriangles()[corner];
+        const SurfelOwners owners(mesh, placeSurfels(mesh, 400, false, SurfelPlacement::Relaxed));
+        const double area = 7, side = std::sqrt(area / 400) / 4;
+        EXPECT_LT(owners.cells(), 2 * area / (side * side) + 9 / side + 1) << corner;
+    }
+}
+
 TEST(ClusterTree, IsOneBinaryTreeWithParentsAfterChildren) {
     Scene scene = twoRooms();
     const SurfelSet set = placeSurfels(scene, 1000);
