@@ -77,16 +77,17 @@ public:
         lightChanged();
         m_unseenRounds = 2;
     }
+    /// The rounds since the light changed.
+    std::uint32_t rounds() const { return m_rounds; }
+    /// Rounds that bring what has changed; each one after them reflects the one before.
+    static constexpr std::uint32_t kBringing = 2;
+
     void addRound(RoundChange round) {
-        // Two rounds bring what has changed; each one after them reflects the one before.
         const bool reflects = ++m_rounds > kBringing && m_before > 0;
         m_passedOn = reflects ? round.change / m_before : 0;
         m_before = round.change;
         m_latest[m_rounds % m_latest.size()] = m_passedOn;
-        const double toCome = following();
-        const double tolerance = double(m_settings.tolerance) / 100;
-        const bool converged =
-            round.ofAll() * toCome < tolerance && round.relative * toCome < tolerance;
+        const bool converged = isReached(round, following(std::ranges::max(m_latest)));
         const bool more = m_passedOn > kRounding && !converged;
         m_growing = more ? m_growing + 1 : 0;
         m_grown = more ? m_grown * m_passedOn : 1;
@@ -94,17 +95,36 @@ public:
         m_unseenRounds -= m_unseenRounds > 0;
     }
 
+    /// The same for a round that did not begin with the light of the one before, but with light
+    /// from which it would have changed by `residual`, where no change is passed on by more than
+    /// `passedOn`, which is below 1. What is to come counts kStricter times: the share is that of
+    /// other sums than the ones that end rounds.
+    void addResidual(RoundChange residual, double passedOn) {
+        ++m_rounds;
+        m_passedOn = passedOn;
+        m_before = residual.change;
+        m_latest = {passedOn};
+        m_reached = isReached(residual, kStricter * following(passedOn)) && m_unseenRounds == 0;
+        m_growing = 0;
+        m_grown = 1;
+        m_unseenRounds -= m_unseenRounds > 0;
+    }
+
 private:
-    static constexpr std::uint32_t kBringing = 2;
-    static constexpr double kRounding = 1.001;
+    static constexpr double kRounding = 1.001, kStricter = 4;
+
+    bool isReached(const RoundChange& round, double toCome) const {
+        const double tolerance = double(m_settings.tolerance) / 100;
+        return round.ofAll() * toCome < tolerance && round.relative * toCome < tolerance;
+    }
 
     /// The sum of all changes that would follow the latest one, relative to it and at least 1, as a
-    /// geometric series. The ratio is the maximum share that one of the latest rounds passed on:
-    /// where changes are as small as a hundred roundings, shares scatter by some per cent, and in a
-    /// white room the first low one would end bounces 0.03 % to 0.1 % too early.
-    double following() const {
+    /// geometric series of ratio `passedOn`: the maximum share that one of the latest rounds passed
+    /// on. Where changes are as small as a hundred roundings, shares scatter by some per cent, and
+    /// in a white room the first low one would end bounces 0.03 % to 0.1 % too early.
+    static double following(double passedOn) {
         constexpr double kMaxPassedOn = 0.999; // noise, rounding
-        const double q = std::min(std::ranges::max(m_latest), kMaxPassedOn);
+        const double q = std::min(passedOn, kMaxPassedOn);
         return std::max(q / (1 - q), 1.);
     }
 

@@ -6,6 +6,7 @@
 #include "engine/core/stopwatch.h"
 #include "engine/field/grid_placement.h"
 #include "engine/scene/surface/receiver_bands.h"
+#include "engine/techniques/illuminance/relight/bounce_extrapolation.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
 #include "engine/techniques/illuminance/relight/light_basis.h"
@@ -34,6 +35,7 @@ struct Relighter::State {
     LinkCounts links;                                ///< of this call
     bool started = false;
     Convergence convergence;
+    BounceExtrapolation ahead; ///< while nothing changes
 
     std::vector<Material> materials; ///< materials of `albedo` and `emitted`
     std::vector<float> seenShare;    ///< per surfel
@@ -76,6 +78,7 @@ struct Relighter::State {
     void keepInner(const CacheFlags& which);
     void lightRest();
     void readInner();
+    void readBounce();
     void lightSeen(const CacheFlags& which, bool newLight);
 
     std::uint32_t gridCaches() const {
@@ -89,6 +92,7 @@ struct Relighter::State {
     bool updateMaterials(const Scene& scene);
     bool updateSky(const Scene& scene);
     RoundChange lightSurfels();
+    void beginBounce();
     void writeField(const CacheFlags& which, bool grid);
     std::uint64_t bytes() const;
 };
@@ -247,6 +251,12 @@ void Relighter::State::readInner() {
     readCaches(bake->surfels, inner(), innerBands.luma, indirect);
 }
 
+/// Lets surfels read the bounce that began last.
+void Relighter::State::readBounce() {
+    readInner();
+    ahead.end({albedo, radiosity, bake->surfels.area, seenShare}, indirect);
+}
+
 /// Lights the caches in `which` for the field, in all bands. `newLight`: surfels have not read the
 /// light of the last pull.
 void Relighter::State::lightSeen(const CacheFlags& which, bool newLight) {
@@ -291,6 +301,18 @@ RoundChange Relighter::State::lightSurfels() {
     return round;
 }
 
+/// Lights the surfels for another bounce. Most scenes rest, and light moves on, before bounces are
+/// extrapolated.
+void Relighter::State::beginBounce() {
+    const RoundChange round = lightSurfels();
+    if (const auto& residual = ahead.residual())
+        convergence.addResidual(residual->change, residual->passedOn);
+    else
+        convergence.addRound(round);
+    if (convergence.rounds() >= BounceExtrapolation::kPlain && !convergence.restarts())
+        ahead.begin(indirect);
+}
+
 void Relighter::State::writeField(const CacheFlags& which, bool grid) {
     const Caches& caches = bake->caches;
     const auto coefficients = std::size_t(bands * bands);
@@ -322,7 +344,7 @@ std::uint64_t Relighter::State::bytes() const {
                innerSh, field.lightmap, field.grid, read, current, missing, rest,
                occluded.cones.links, occluded.cones.linkBegin, occluded.cones.linkExponent,
                occluded.halfs, occlusion.places, direct.irradiance, direct.before) +
-        basis.bytes();
+        basis.bytes() + ahead.bytes();
     for (const DirectIrradiance::PerLight& light : direct.lights)
         sum += sizeOf(light.share, light.open);
     return sum;
@@ -358,6 +380,8 @@ bool Relighter::State::takeScene(const Scene& scene, const TraceScene& trace, Re
     const bool settingsChanged = convergence.applySettings(scene.relight);
     const bool changed = materialsChanged || skyChanged || directChanged || occlusionChanged ||
                          gridMissing || settingsChanged;
+    if (changed || summed)
+        ahead.clear();
     if (changed && convergence.restarts()) {
         std::ranges::fill(indirect, glm::vec3(0));
         unread = false;
@@ -450,13 +474,13 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
         if (s.unread && !changed) {
             s.lightRest();
             stats.cacheLightMs += timer.lap();
-            s.readInner();
+            s.readBounce();
             stats.surfelReadMs += timer.lap();
         }
         s.current.assign(s.current.size(), 0);
     }
     for (bool last = !bouncing; !last;) {
-        s.convergence.addRound(s.lightSurfels());
+        s.beginBounce();
         ++stats.bounces;
         last = s.convergence.reached() || stats.bounces == bounces || progress.cancelled();
         stats.surfelLightMs += timer.lap();
@@ -466,7 +490,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
             break;
         s.light(s.innerBands, s.readRuns, s.inner());
         stats.cacheLightMs += timer.lap();
-        s.readInner();
+        s.readBounce();
         stats.surfelReadMs += timer.lap();
     }
     CacheFlags& lit = s.missing;
@@ -484,7 +508,7 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
             s.lightRest();
         stats.cacheLightMs += timer.lap();
         if (bouncing && !s.unread)
-            s.readInner();
+            s.readBounce();
         stats.surfelReadMs += timer.lap();
         s.writeField(lit, grid);
         stats.fieldMs = timer.lap();
@@ -493,6 +517,8 @@ RelightStats Relighter::relight(const Scene& scene, const TraceScene& trace, std
     stats.sourcesKept = std::uint32_t(s.basis.kept());
     stats.links = s.links.links;
     stats.linksSkipped = s.links.skipped;
+    if (stats.converged)
+        s.ahead.release();
     stats.bytes = s.bytes();
     stats.totalMs = total.lap();
     return stats;

@@ -14,18 +14,19 @@ struct Errors {
     double radiosity, lightmap, grid;
 };
 
-/// Both lit by the scene's light until it converges.
-Errors errorsOf(const OpenFile& file, const Scene& scene, const TraceScene& trace,
+/// Both lit by the scene's light until it converges, to far less than what is compared.
+Errors errorsOf(const OpenFile& file, Scene scene, const TraceScene& trace,
                 const std::shared_ptr<const Bake>& baked) {
+    scene.relight.tolerance = 0.001f;
+    EXPECT_EQ(limnrt_set_tolerance(file, 1e-5f), 1);
     Relighter relighter(baked, LitBands::All);
     EXPECT_TRUE(relighter.relight(scene, trace, 1000).converged);
     std::vector<limnrt_light> lights;
     for (const Light& light : scene.lights)
         lights.push_back(runtimeLight(light));
     EXPECT_EQ(limnrt_set_lights(file, lights.data(), std::uint32_t(lights.size())), 1);
-    limnrt_reset(file); // bounces then end where the other's do
-    for (int k = 0; k < 1000 && limnrt_converged(file) == 0; ++k)
-        limnrt_step(file);
+    limnrt_reset(file);
+    limnrt_converge(file, 1000);
     EXPECT_EQ(limnrt_converged(file), 1);
     Errors errors{};
     errors.radiosity =
