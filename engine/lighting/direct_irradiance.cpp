@@ -10,6 +10,7 @@
 #include "engine/trace/rectangle_shadow.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cassert>
 #include <cmath>
@@ -189,16 +190,33 @@ std::uint64_t traceLight(const Points& points, const TraceScene& trace, bool kno
     });
 }
 
-void sumLights(std::size_t points, DirectIrradiance& state) {
-    state.irradiance.assign(points, glm::vec3(0));
-    parallelRanges(points, 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t l = 0; l < state.lights.size(); ++l) {
-            const glm::vec3 strength = state.summed[l].color * state.summed[l].strength;
-            const std::vector<float>& share = state.lights[l].share;
-            for (std::size_t s = begin; s < end; ++s)
-                state.irradiance[s] += glm::min(strength * share[s], kMaxIrradiance);
-        }
-    });
+/// Returns whether a sum has changed.
+bool sumLights(std::size_t points, DirectIrradiance& state) {
+    constexpr std::size_t kTogether = 256;
+    std::atomic<bool> changed = state.irradiance.size() != points;
+    state.irradiance.resize(points);
+    parallelRanges(
+        (points + kTogether - 1) / kTogether, 4, [&](std::size_t first, std::size_t last) {
+            bool differs = false;
+            for (std::size_t k = first; k < last; ++k) {
+                const std::size_t begin = k * kTogether,
+                                  count = std::min(points - begin, kTogether);
+                std::array<glm::vec3, kTogether> sum{};
+                for (std::size_t l = 0; l < state.lights.size(); ++l) {
+                    const glm::vec3 strength = state.summed[l].color * state.summed[l].strength;
+                    const float* share = state.lights[l].share.data() + begin;
+                    for (std::size_t i = 0; i < count; ++i)
+                        sum[i] += glm::min(strength * share[i], kMaxIrradiance);
+                }
+                for (std::size_t i = 0; i < count; ++i) {
+                    differs = differs || sum[i] != state.irradiance[begin + i];
+                    state.irradiance[begin + i] = sum[i];
+                }
+            }
+            if (differs)
+                changed = true;
+        });
+    return changed;
 }
 
 } // namespace
@@ -254,9 +272,7 @@ bool updateDirectIrradiance(std::span<const glm::vec3> positions,
         ++state.lightsTraced;
     }
     std::swap(state.summed, lights);
-    std::swap(state.before, state.irradiance);
-    sumLights(points, state);
-    return state.before != state.irradiance;
+    return sumLights(points, state);
 }
 
 } // namespace limn

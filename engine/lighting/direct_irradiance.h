@@ -40,7 +40,6 @@ struct DirectIrradiance {
     // Buffers of the previous update, whose memory the next one reuses.
     std::vector<Light> wanted;
     std::vector<PerLight> known;
-    std::vector<glm::vec3> before;
 };
 
 /// Brings `state` up to date with the scene's lights at positions with unit normals, on the side

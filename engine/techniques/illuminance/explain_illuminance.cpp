@@ -202,7 +202,7 @@ struct OriginTable {
 
     void addEmitters() {
         ObjectValues emitted, bounced;
-        for (std::uint32_t s = 0; s < state.bake.tree.surfels; ++s)
+        for (std::uint32_t s = 0; s < state.emitted.size(); ++s)
             if (state.emitted[s] != glm::vec3(0)) {
                 const std::uint32_t object = state.bake.surfels.instance[s];
                 emitted[object] += weights.value(weights.direct, s, state.emitted[s]) +
@@ -271,9 +271,11 @@ struct SenderTable {
                 if (leaf >= tree.surfels)
                     return;
                 LinkPart& part = parts[state.bake.surfels.instance[leaf]];
-                const glm::vec3 value =
-                    share * (weights.value(weights.linked, node, state.radiosity[leaf]) +
-                             weights.value(weights.linkedEmitted, node, state.emitted[leaf]));
+                glm::vec3 value =
+                    share * weights.value(weights.linked, node, state.radiosity[leaf]);
+                if (!state.emitted.empty())
+                    value +=
+                        share * weights.value(weights.linkedEmitted, node, state.emitted[leaf]);
                 part.value += value;
                 part.surfels.emplace_back(leaf, value);
             });

@@ -40,7 +40,7 @@ struct Relighter::State {
     std::vector<Material> materials; ///< materials of `albedo` and `emitted`
     std::vector<float> seenShare;    ///< per surfel
     std::vector<glm::vec3> albedo;   ///< per surfel
-    std::vector<glm::vec3> emitted;  ///< pi L_e per surfel [W m^-2]
+    std::vector<glm::vec3> emitted;  ///< pi L_e per surfel [W m^-2]; empty: nothing emits
     Sky sky;
     bool blackSky = true;
     DirectIrradiance direct;
@@ -183,6 +183,8 @@ bool Relighter::State::updateMaterials(const Scene& scene) {
                                                   : std::vector<std::uint16_t>();
     }
     surfelMaterials(bake->surfels, scene, albedo, emitted, materials);
+    if (std::ranges::all_of(emitted, [](glm::vec3 e) { return e == glm::vec3(0); }))
+        emitted = std::vector<glm::vec3>(); // frees the memory
     materials = scene.materials;
     return true;
 }
@@ -278,7 +280,9 @@ RoundChange Relighter::State::lightSurfels() {
     const auto lightBlock = [&](std::size_t begin, std::size_t end) {
         RoundChange sum;
         for (std::size_t i = begin; i < end; ++i) {
-            const glm::vec3 b = albedo[i] * (direct.irradiance[i] + indirect[i]) + emitted[i];
+            glm::vec3 b = albedo[i] * (direct.irradiance[i] + indirect[i]);
+            if (!emitted.empty())
+                b += emitted[i];
             const glm::vec3 d = glm::abs(b - glm::vec3(radiosity[i]));
             sum.change += double(d.x + d.y + d.z) * s.area[i];
             sum.total += double(b.x + b.y + b.z) * s.area[i];
@@ -343,7 +347,7 @@ std::uint64_t Relighter::State::bytes() const {
         sizeOf(halfs, everyLink, beforeSky, seenShare, albedo, emitted, indirect, radiosity, sh,
                innerSh, field.lightmap, field.grid, read, current, missing, rest,
                occluded.cones.links, occluded.cones.linkBegin, occluded.cones.linkExponent,
-               occluded.halfs, occlusion.places, direct.irradiance, direct.before) +
+               occluded.halfs, occlusion.places, direct.irradiance) +
         basis.bytes() + ahead.bytes();
     for (const DirectIrradiance::PerLight& light : direct.lights)
         sum += sizeOf(light.share, light.open);

@@ -68,9 +68,10 @@ struct RelightState {
     LightBands inner; ///< of what surfels read
     int chroma;       ///< bands in colour of the field
     std::uint32_t maxBounces;
-    std::span<const glm::vec4> radiosity;                 ///< per node, as withLuma [W m^-2]
-    std::span<const glm::vec3> albedo, emitted, indirect; ///< per surfel; emitted: pi L_e [W m^-2];
-                                                          ///< indirect: irradiance [W m^-2]
+    std::span<const glm::vec4> radiosity; ///< per node, as withLuma [W m^-2]
+    std::span<const glm::vec3> albedo;    ///< per surfel, as the next two
+    std::span<const glm::vec3> emitted;   ///< pi L_e [W m^-2]; empty: no surfel emits
+    std::span<const glm::vec3> indirect;  ///< irradiance [W m^-2]
     const DirectIrradiance& direct;
 };
 
