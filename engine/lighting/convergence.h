@@ -82,12 +82,18 @@ public:
     /// Rounds that bring what has changed; each one after them reflects the one before.
     static constexpr std::uint32_t kBringing = 2;
 
-    void addRound(RoundChange round) {
+    /// `uncertain`: some change may be passed on as a whole, so that only a change of next to
+    /// nothing ends rounds.
+    void addRound(RoundChange round, bool uncertain = false) {
         const bool reflects = ++m_rounds > kBringing && m_before > 0;
         m_passedOn = reflects ? round.change / m_before : 0;
         m_before = round.change;
         m_latest[m_rounds % m_latest.size()] = m_passedOn;
-        const bool converged = isReached(round, following(std::ranges::max(m_latest)));
+        // Where changes are as small as a hundred roundings, shares scatter by some per cent: in a
+        // white room the first low one would end bounces 0.03 % to 0.1 % too early.
+        constexpr double kNoise = 0.999;
+        const double q = uncertain ? kMaximum : std::min(std::ranges::max(m_latest), kNoise);
+        const bool converged = isReached(round, following(q));
         const bool more = m_passedOn > kRounding && !converged;
         m_growing = more ? m_growing + 1 : 0;
         m_grown = more ? m_grown * m_passedOn : 1;
@@ -97,21 +103,24 @@ public:
 
     /// The same for a round that did not begin with the light of the one before, but with light
     /// from which it would have changed by `residual`, where no change is passed on by more than
-    /// `passedOn`, which is below 1. What is to come counts kStricter times: the share is that of
-    /// other sums than the ones that end rounds.
+    /// `passedOn`, which is below 1. What is to come counts kStricter times, and the share as it
+    /// is: light that was looked ahead for is as near as roundings long before it may be called
+    /// near.
     void addResidual(RoundChange residual, double passedOn) {
+        constexpr double kStricter = 4;
         ++m_rounds;
         m_passedOn = passedOn;
         m_before = residual.change;
         m_latest = {passedOn};
-        m_reached = isReached(residual, kStricter * following(passedOn)) && m_unseenRounds == 0;
+        m_reached = isReached(residual, kStricter * following(std::min(passedOn, kMaximum))) &&
+                    m_unseenRounds == 0;
         m_growing = 0;
         m_grown = 1;
         m_unseenRounds -= m_unseenRounds > 0;
     }
 
 private:
-    static constexpr double kRounding = 1.001, kStricter = 4;
+    static constexpr double kRounding = 1.001, kMaximum = 0.99999;
 
     bool isReached(const RoundChange& round, double toCome) const {
         const double tolerance = double(m_settings.tolerance) / 100;
@@ -119,14 +128,8 @@ private:
     }
 
     /// The sum of all changes that would follow the latest one, relative to it and at least 1, as a
-    /// geometric series of ratio `passedOn`: the maximum share that one of the latest rounds passed
-    /// on. Where changes are as small as a hundred roundings, shares scatter by some per cent, and
-    /// in a white room the first low one would end bounces 0.03 % to 0.1 % too early.
-    static double following(double passedOn) {
-        constexpr double kMaxPassedOn = 0.999; // noise, rounding
-        const double q = std::min(passedOn, kMaxPassedOn);
-        return std::max(q / (1 - q), 1.);
-    }
+    /// geometric series of ratio q below 1.
+    static double following(double q) { return std::max(q / (1 - q), 1.); }
 
     RelightSettings m_settings;
     bool m_reached = false;

@@ -62,10 +62,11 @@ std::array<double, N> solve(std::array<std::array<double, N>, N> a, std::array<d
     return x;
 }
 
-/// A surfel's weight in products of irradiances: with it, a bounce is a symmetric map, as far as
-/// links are reciprocal, so that no change passes on more than the slowest one.
-glm::vec3 weightOf(const BouncingSurfels& surfels, std::size_t i) {
-    return surfels.albedo[i] * surfels.area[i];
+/// A surfel's weight in products of irradiances, whose squares may leave the range of floats: with
+/// it, a bounce is a symmetric map, as far as links are reciprocal, so that no change passes on
+/// more than the slowest one.
+glm::dvec3 weightOf(const BouncingSurfels& surfels, std::size_t i) {
+    return glm::dvec3(surfels.albedo[i]) * double(surfels.area[i]);
 }
 
 struct ChangeSum : RoundChange {
@@ -154,11 +155,12 @@ double BounceExtrapolation::sharePassedOn(const BouncingSurfels& surfels) const 
     const PerSurfel &after = m_after[slot(0)], &afterLast = m_after[slot(1)],
                     &change = m_change[slot(0)], &changeLast = m_change[slot(1)];
     const auto sum = sumOver<PassedOnSum>(after.size(), [&](PassedOnSum& s, std::size_t i) {
-        const glm::vec3 weight = weightOf(surfels, i), out = after[i] - afterLast[i],
-                        into = out - change[i] + changeLast[i];
-        s.out += glm::dvec3(out * out * weight);
-        s.into += glm::dvec3(into * into * weight);
-        s.all += glm::dvec3(after[i] * after[i] * weight);
+        const glm::dvec3 weight = weightOf(surfels, i), all = after[i],
+                         out = all - glm::dvec3(afterLast[i]),
+                         into = out - glm::dvec3(change[i]) + glm::dvec3(changeLast[i]);
+        s.out += out * out * weight;
+        s.into += into * into * weight;
+        s.all += all * all * weight;
     });
     double share = 0;
     for (int c = 0; c < 3; ++c)
@@ -171,9 +173,9 @@ double BounceExtrapolation::sharePassedOn(const BouncingSurfels& surfels) const 
 void BounceExtrapolation::multiplyNewest(const BouncingSurfels& surfels) {
     using Sum = Products<kKept>;
     const auto sum = sumOver<Sum>(surfels.albedo.size(), [&](Sum& s, std::size_t i) {
-        const glm::vec3 weighted = m_change[m_newest][i] * weightOf(surfels, i);
+        const glm::dvec3 weighted = glm::dvec3(m_change[m_newest][i]) * weightOf(surfels, i);
         for (std::uint32_t age = 0; age < m_count; ++age)
-            s.value[age] += glm::dvec3(weighted * m_change[slot(age)][i]);
+            s.value[age] += weighted * glm::dvec3(m_change[slot(age)][i]);
     });
     for (std::uint32_t age = 0; age < m_count; ++age)
         m_products[m_newest][slot(age)] = m_products[slot(age)][m_newest] = sum.value[age];

@@ -54,6 +54,8 @@ public:
         double passedOn = 0;
     };
     const std::optional<Residual>& residual() const { return m_residual; }
+    /// Whether a bounce has passed on all of a change or more since clear().
+    bool gaveUp() const { return m_grows; }
 
     std::uint64_t bytes() const;
 

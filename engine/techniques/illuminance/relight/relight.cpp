@@ -312,7 +312,7 @@ void Relighter::State::beginBounce() {
     if (const auto& residual = ahead.residual())
         convergence.addResidual(residual->change, residual->passedOn);
     else
-        convergence.addRound(round);
+        convergence.addRound(round, ahead.gaveUp());
     if (convergence.rounds() >= BounceExtrapolation::kPlain && !convergence.restarts())
         ahead.begin(indirect);
 }

@@ -90,6 +90,27 @@ TEST(BounceExtrapolation, LeavesLightThatGrowsAloneOnceThatShows) {
     EXPECT_LT(b.error(), 1e-4);
 }
 
+// The squares of such light lie beyond the range of floats.
+TEST(BounceExtrapolation, OfLightOfAnyStrengthIsTheSame) {
+    const auto ahead = [](float strength) {
+        Bounces b(1000);
+        for (glm::vec3& s : b.source)
+            s *= strength;
+        BounceExtrapolation extrapolation;
+        for (int k = 0; k < 6; ++k) {
+            extrapolation.begin(b.irradiance);
+            b.bounce();
+            extrapolation.end(b.surfels(), b.irradiance);
+        }
+        for (glm::vec3& e : b.irradiance)
+            e /= strength;
+        return b.irradiance;
+    };
+    const std::vector<glm::vec3> one = ahead(1);
+    for (const float strength : {0x1p90f, 0x1p-90f})
+        EXPECT_EQ(ahead(strength), one) << strength;
+}
+
 TEST(BounceExtrapolation, IsTheSameForAnyNumberOfThreads) {
     std::vector<std::vector<glm::vec3>> light;
     for (const int threads : {1, 2, 3}) {
