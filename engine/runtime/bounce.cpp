@@ -12,10 +12,6 @@ F4 positive(F4 v) {
     return v > 0.f ? v : F4{};
 }
 
-float lumaOf(F4 rgb) {
-    return rgb[1] * 0.5f + (rgb[0] + rgb[2]) * 0.25f;
-}
-
 /// B = albedo (E_direct + E_indirect) + pi L_e.
 RoundChange lightSurfels(limnrt_scene& s) {
     constexpr float kBlack = 1e-30f; // fading light must not end in denormals, which are slow

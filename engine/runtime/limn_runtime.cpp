@@ -27,6 +27,18 @@ struct Arena {
     }
 };
 
+void takeKept(limnrt_scene& s, Arena& arena) {
+    const std::uint64_t slots = s.options.max_kept, caches = s.view.dims.caches,
+                        values = 3 * caches * s.coefficients();
+    float* scales = nullptr;
+    std::int16_t* numbers = nullptr;
+    arena.take(s.kept, slots);
+    arena.take(scales, slots * caches);
+    arena.take(numbers, slots * values);
+    for (std::size_t k = 0; arena.block && k < slots; ++k)
+        s.kept[k] = {false, scales + k * caches, numbers + k * values};
+}
+
 void takeArrays(limnrt_scene& s, Arena& arena) {
     const Dims& d = s.view.dims;
     const std::uint64_t surfels = d.surfels, maxLights = s.options.max_lights;
@@ -51,6 +63,7 @@ void takeArrays(limnrt_scene& s, Arena& arena) {
     arena.take(s.lights, maxLights);
     arena.take(s.slots, maxLights);
     arena.take(s.slotOf, maxLights);
+    takeKept(s, arena);
     float* shares = nullptr;
     arena.take(shares, surfels * maxLights);
     for (std::size_t k = 0; arena.block && k < maxLights; ++k)
@@ -65,7 +78,7 @@ limnrt_scene* refuse(const char* what, char* error, std::size_t size) {
 
 /// Fills in the defaults. Returns what is wrong with them.
 const char* takeOptions(const limnrt_options* given, limnrt_scene& s) {
-    constexpr std::uint32_t kMaxLights = 4096;
+    constexpr std::uint32_t kMaxLights = 4096, kMaxKept = 4096;
     s.options = given ? *given : limnrt_options{};
     const Dims& d = s.view.dims;
     if (!s.options.allocate != !s.options.release)
@@ -78,6 +91,8 @@ const char* takeOptions(const limnrt_options* given, limnrt_scene& s) {
         s.options.max_lights = std::max(16U, d.lights);
     if (s.options.max_lights > kMaxLights || s.options.max_lights < d.lights)
         return "options: max_lights out of range";
+    if (s.options.max_kept > kMaxKept)
+        return "options: max_kept out of range";
     s.results = {s.options.bands, std::min(d.chromaBands, s.options.bands)};
     s.inner.luma = std::min(s.options.bands, kIrradianceBands);
     // Without colour in the second band every bounce would make the light greyer.

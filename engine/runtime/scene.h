@@ -22,6 +22,13 @@ struct LightSlot {
     float* share;
 };
 
+/// Results that were kept, three numbers per coefficient of a cache: value / 32767 times its scale.
+struct KeptLight {
+    bool used;
+    float* scale;
+    std::int16_t* values;
+};
+
 /// Bands that are gathered.
 struct Bands {
     std::uint32_t luma, chroma;
@@ -55,6 +62,7 @@ struct limnrt_scene {
     limnrt_light* lights;                 ///< the latest, of max_lights
     limn::runtime::LightSlot* slots;      ///< max_lights
     std::uint32_t* slotOf;                ///< per light: its slot, or ~0 where it is off
+    limn::runtime::KeptLight* kept;       ///< max_kept
 
     std::size_t coefficients() const { return std::size_t(results.luma) * results.luma; }
 };
@@ -79,6 +87,11 @@ void takeSky(limnrt_scene& scene, const float* rgb);
 
 /// Traces what is new among the scene's lights and sums their light.
 void takeLights(limnrt_scene& scene);
+
+/// Green half, red and blue a quarter each.
+inline float lumaOf(F4 rgb) {
+    return rgb[1] * 0.5f + (rgb[0] + rgb[2]) * 0.25f;
+}
 
 /// Irradiance, >= 0, of bands^2 coefficients.
 F4 irradianceOf(const limnrt_scene& scene, const F4* sh, const float* normal);

@@ -43,8 +43,8 @@ export async function openTransport(wasm, packed, maxLights, tolerance) {
 
   const size = unpackedBytes(packed), base = (allocate(size + 16) + 15) & ~15;
   unpackTransport(packed, bytesAt(base, size).fill(0));
-  const error = allocate(512), options = allocate(24);
-  wordsAt(options, 6).set([0, maxLights, 0, 0, 0, 0]);
+  const error = allocate(512), options = allocate(28);
+  wordsAt(options, 7).set([0, maxLights, 0, 0, 0, 0, 0]);
   const scene = rt.limnrt_open(base, size, options, error, 512);
   if (!scene) throw new Error(textAt(error));
   rt.limnrt_set_tolerance(scene, tolerance);
