@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
-#include <unordered_map>
 
 #include <glm/geometric.hpp>
 
@@ -236,17 +236,29 @@ float cacheError(const PatchHits& patchHits, const Surfels& moved, std::uint32_t
     return std::abs(larger) < kMinError ? 0 : larger * float(seen);
 }
 
+/// What the surfels of a group have in common: one side of one instance, since a cache has its
+/// points there, their strongest cache, and how they face and err. Surfels of several instances
+/// may read one cache where texels are coarser than objects.
+struct GroupKey {
+    std::uint32_t instance;
+    bool back;
+    std::uint32_t cache, axis;
+    bool negative; ///< the axis along which they face points the other way
+    bool brighter; ///< than their cache
+
+    auto operator<=>(const GroupKey&) const = default;
+};
+
 /// A group of surfels that are close together, face alike, and whose caches err in the same
 /// way.
 struct ErrorGroup {
-    std::uint64_t key = 0;
+    GroupKey key{};
     double error = 0; ///< sum of the absolute errors, > 0
     std::vector<std::uint32_t> surfels;
 };
 
-/// Key of a surfel's group: its strongest cache, whether it is brighter or darker than that, and
-/// the side that it faces.
-std::uint64_t groupKey(const Surfels& s, std::uint32_t surfel, bool brighter) {
+GroupKey groupKey(const PatchHits& patchHits, const Surfels& s, std::uint32_t surfel,
+                  bool brighter) {
     const glm::vec4 w = s.cacheWeight[surfel];
     const glm::vec3 n = s.normal[surfel], a = glm::abs(n);
     int cache = 0, axis = 0;
@@ -254,19 +266,23 @@ std::uint64_t groupKey(const Surfels& s, std::uint32_t surfel, bool brighter) {
         cache = w[k] > w[cache] ? k : cache;
     for (int k = 1; k < 3; ++k)
         axis = a[k] > a[axis] ? k : axis;
-    return std::uint64_t(s.cache[surfel][cache]) * 12 + unsigned(6 * int(brighter)) +
-           unsigned(2 * axis + int(n[axis] < 0));
+    return {s.instance[surfel],
+            isBack(patchHits.set, surfel, patchHits.trace.scene()),
+            s.cache[surfel][cache],
+            std::uint32_t(axis),
+            n[axis] < 0,
+            brighter};
 }
 
 /// At most `maximum` groups, those of the largest errors, sorted by key.
-std::vector<ErrorGroup> largestGroups(const Surfels& moved, const std::vector<float>& errors,
-                                      std::size_t maximum) {
+std::vector<ErrorGroup> largestGroups(const PatchHits& patchHits, const Surfels& moved,
+                                      const std::vector<float>& errors, std::size_t maximum) {
     std::vector<ErrorGroup> groups;
-    std::unordered_map<std::uint64_t, std::size_t> indexOf;
+    std::map<GroupKey, std::size_t> indexOf;
     for (std::uint32_t s = 0; s < errors.size(); ++s) {
         if (errors[s] == 0)
             continue;
-        const std::uint64_t key = groupKey(moved, s, errors[s] > 0);
+        const GroupKey key = groupKey(patchHits, moved, s, errors[s] > 0);
         const auto [entry, isNew] = indexOf.emplace(key, groups.size());
         if (isNew)
             groups.push_back({.key = key});
@@ -345,7 +361,7 @@ SeenPatches findSeenPatches(const TraceScene& trace, const SurfelSet& set,
     });
     result.surfelCache.assign(count, ~0U);
     for (const ErrorGroup& group :
-         largestGroups(moved.surfels, errors,
+         largestGroups(patchHits, moved.surfels, errors,
                        std::min(std::size_t(caches.lightmapCount / kCachesPerSurfelCache),
                                 freeTexels(atlas.layout, caches).size()))) {
         for (const std::uint32_t s : group.surfels)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Surfels of a shelf that passes through the wall of a sealed room: what of it is seen lies inside,
 // where no light of the sky is.
+#include "engine/gallery/hostile_scene.h"
 #include "engine/lightmap/atlas_stage.h"
 #include "engine/math/sampling.h"
 #include "engine/scene/mesh/input_hash.h"
@@ -194,6 +195,24 @@ double shareOf(const Prepared& p, std::uint32_t instance, std::uint32_t cache) {
 
 // A low table stands in a closed room under a ceiling of light. Texels of the floor are much wider
 // than surfels, so that those by the table's edge read both what it covers and what it does not.
+// Where texels are coarser than objects, surfels of several of them read one cache. A cache of
+// their own has its points on one of them.
+TEST(SeenPatches, CachesOfTheirOwnAreOfOneInstance) {
+    const HostileScene made = hostileScene(20630);
+    const Scene scene = flatten(made.document, made.assets);
+    const Prepared p(scene);
+    ASSERT_GT(p.seen.surfelCaches.size(), 0U);
+    const Surfels& s = p.set.surfels;
+    for (std::uint32_t i = 0; i < s.size(); ++i)
+        if (const std::uint32_t own = p.seen.surfelCache[i]; own != ~0U) {
+            const SurfelCache& cache = p.seen.surfelCaches[own];
+            EXPECT_EQ(cache.instance, s.instance[i]);
+            const Mesh& mesh = scene.meshOf(scene.instances[cache.instance]);
+            for (std::uint32_t k = 0; k < cache.count; ++k)
+                EXPECT_LT(cache.points[k].triangle, mesh.triangleCount());
+        }
+}
+
 TEST(SeenPatches, SurfelsWhoseCachesSeeAnotherShareOfLampsReadCachesOfTheirOwn) {
     constexpr std::uint32_t kLamp = 2;
     SceneBuilder b;
