@@ -10,7 +10,7 @@ namespace limn {
 
 Bounds gridBoundsOf(const Scene& scene) {
     Bounds bounds = staticBounds(scene);
-    const float minSize = std::max(1e-3f * glm::length(bounds.size()), 1e-6f);
+    const float minSize = std::max(1e-3f * glm::length(bounds.size()), 1e-20f);
     const glm::vec3 missing = glm::max(glm::vec3(0), glm::vec3(minSize) - bounds.size()) * 0.5f;
     bounds.lower -= missing;
     bounds.upper += missing;

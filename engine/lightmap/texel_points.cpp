@@ -2,6 +2,7 @@
 #include "engine/lightmap/texel_points.h"
 
 #include "engine/math/sampling.h"
+#include "engine/math/unit_vector.h"
 
 #include <bit>
 
@@ -14,10 +15,8 @@ WorldPoint worldPoint(const Scene& scene, const Instance& instance, const MeshPo
     const auto [a, b, c] = mesh.triangle(point.triangle);
     const glm::vec3 pa = mesh.positions[a], pb = mesh.positions[b], pc = mesh.positions[c];
     const glm::vec2 uv = point.barycentric;
-    const glm::vec3 n = instance.normalToWorld * glm::cross(pb - pa, pc - pa);
-    const float length = glm::length(n);
     return {instance.toWorld * glm::vec4(pa * (1 - uv.x - uv.y) + pb * uv.x + pc * uv.y, 1),
-            length > 0 ? n / length : glm::vec3(0, 1, 0)};
+            unitOr(instance.normalToWorld * glm::cross(pb - pa, pc - pa), glm::vec3(0, 1, 0))};
 }
 
 WorldPoint texelPoint(const Scene& scene, const AtlasTexel& texel, std::uint32_t k) {

@@ -3,6 +3,7 @@
 
 #include "engine/core/log.h"
 #include "engine/core/parallel.h"
+#include "engine/math/unit_vector.h"
 #include "engine/trace/alpha_mask.h"
 #include "engine/trace/embree.h"
 
@@ -461,9 +462,7 @@ Hit TraceScene::closestHit(const Ray& ray, TraceMask mask) const {
     hit.position =
         glm::vec3(m_impl->frames[hit.instance].toWorld *
                   glm::vec4(corner.position + hit.u * corner.toSecond + hit.v * corner.toThird, 1));
-    const glm::vec3 n = m_impl->normalOf(rh, corner);
-    const float length = glm::length(n);
-    hit.geometricNormal = length > 0 ? n / length : -ray.direction;
+    hit.geometricNormal = unitOr(m_impl->normalOf(rh, corner), -ray.direction);
     hit.frontFace = glm::dot(hit.geometricNormal, ray.direction) < 0;
     return hit;
 }
