@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "engine/runtime/limn_kept_light.h"
 #include "engine/runtime/scene.h"
 
 #include <algorithm>

@@ -45,8 +45,7 @@ typedef struct limnrt_light {
 typedef struct limnrt_options {
     uint32_t bands;      /* SH bands of the results, [2, the file's]; 0: the file's */
     uint32_t max_lights; /* most lights of limnrt_set_lights(); 0: 16, or as many as the file has */
-    uint32_t flags;
-    uint32_t max_kept;                           /* slots of limnrt_keep(), at most 4096 */
+    uint32_t flags, max_kept; /* max_kept: slots of limn_kept_light.h, [0, 4096] */
     void* (*allocate)(size_t bytes, void* user); /* called once, by limnrt_open(); 0: malloc */
     void (*release)(void* block, void* user);    /* called once, by limnrt_close(); 0: free */
     void* user;
@@ -119,18 +118,6 @@ uint32_t limnrt_converge(limnrt_scene*, uint32_t max_bounces);
 int limnrt_converged(const limnrt_scene*); /* 1 where limnrt_converge() would do nothing */
 float limnrt_missing(const limnrt_scene*); /* estimated share of all light, [0, 1] */
 void limnrt_reset(limnrt_scene*); /* forgets bounced light: n steps then bring n bounces exactly */
-
-/* Light that is kept. Bounced light is linear in what lamps, sky and emissive materials send: what
-   each of them brings alone adds up. A program lights the scene by one of them, or by a group that
-   only changes together, keeps that light, and mixes it with others later at the cost of reading
-   it, without a bounce. */
-/* Keeps the results' present light in a slot below max_kept, with 16 bits a number and a factor for
-   each cache. Albedo and places that change afterwards do not change it. */
-int limnrt_keep(limnrt_scene*, uint32_t slot);
-/* Until the next bounce, all results are the sum of what slots 0 to count - 1 keep, each times its
-   factor, `rgb`, 3 each in [0, 1e10]; grey bands times its luma. Slots with factor 0 may be empty.
-   With count 0, results are those of the scene's own light again. */
-int limnrt_mix(limnrt_scene*, const float* rgb, uint32_t count);
 
 /* Radiosity per node of the tree, surfels first: red, green, blue [W m^-2] and luma. */
 const float* limnrt_radiosity(const limnrt_scene*);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Light that a program keeps and mixes is that of all sources together.
+#include "engine/runtime/limn_kept_light.h"
 #include "tests/runtime/open_file.h"
 #include "tests/techniques/illuminance/relight/lit_room.h"
 #include "tests/techniques/illuminance/relight/relit.h"

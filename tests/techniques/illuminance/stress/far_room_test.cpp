@@ -99,7 +99,8 @@ TEST(FarRoom, IsLitAsItIsNearby) {
         ASSERT_EQ(far->scene.instances.size(), 3U);
         EXPECT_LE(difference(near->light.radiosity, far->light.radiosity), kOneSurfel) << at;
         EXPECT_LE(difference(near->light.sh, far->light.sh), kOneSurfel) << at;
-        EXPECT_LE(difference(near->light.field.lightmap, far->light.field.lightmap), kOneSurfel) << at;
+        EXPECT_LE(difference(near->light.field.lightmap, far->light.field.lightmap), kOneSurfel)
+            << at;
     }
 }
 

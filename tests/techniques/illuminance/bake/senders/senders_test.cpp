@@ -260,8 +260,8 @@ TEST(SurfelOwners, CellsCoverTheirTriangleOnce) {
     }
 }
 
-// A quarter of the surfels' spacing is the side of a cell. It takes two for each of the least number,
-// of which the triangle covers half, wherever its right angle is.
+// A quarter of the surfels' spacing is the side of a cell. It takes two for each of the least
+// number, of which the triangle covers half, wherever its right angle is.
 TEST(SurfelOwners, CellsAreAsManyAsTheAreaNeeds) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
         const Mesh mesh = hardTriangles()[corner];
