@@ -17,6 +17,11 @@ struct RoundChange {
     double relative = 0; ///< sum of each sample's relativeChange() times its share of
                          ///< what receivers see, a mean
 
+    void operator+=(const RoundChange& other) {
+        change += other.change;
+        total += other.total;
+        relative += other.relative;
+    }
     double ofAll() const { return total > 0 ? change / total : (change > 0 ? 1 : 0); }
 };
 
@@ -82,8 +87,8 @@ public:
     /// Rounds that bring what has changed; each one after them reflects the one before.
     static constexpr std::uint32_t kBringing = 2;
 
-    /// `uncertain`: some change may be passed on as a whole, so that only a change of next to
-    /// nothing ends rounds.
+    /// `uncertain`: a round has been seen to pass on all of a change, so that only a change of next
+    /// to nothing ends rounds.
     void addRound(RoundChange round, bool uncertain = false) {
         const bool reflects = ++m_rounds > kBringing && m_before > 0;
         m_passedOn = reflects ? round.change / m_before : 0;
@@ -101,13 +106,13 @@ public:
         m_unseenRounds -= m_unseenRounds > 0;
     }
 
-    /// The same for a round that did not begin with the light of the one before, but with light
-    /// from which it would have changed by `residual`, where no change is passed on by more than
-    /// `passedOn`, which is below 1. What is to come counts kStricter times, and the share as it
-    /// is: light that was looked ahead for is as near as roundings long before it may be called
-    /// near.
+    /// The same for a round after an extrapolation. `residual`: the change that another round
+    /// would have brought without it. `passedOn`: the largest share of a change that a round has
+    /// passed on, below 1. This share is not capped as in addRound(), because extrapolated light
+    /// may change by no more than roundings from round to round while it is still far from its
+    /// limit.
     void addResidual(RoundChange residual, double passedOn) {
-        constexpr double kStricter = 4;
+        constexpr double kStricter = 4; // the share is measured over other sums than the change
         ++m_rounds;
         m_passedOn = passedOn;
         m_before = residual.change;

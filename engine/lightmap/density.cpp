@@ -160,9 +160,8 @@ void DensityFinder::addProbes(Chart& chart, std::uint32_t count) {
 
 /// Traces cosine-weighted rays.
 void DensityFinder::look(Probe& probe, Met* met) const {
-    WorldPoint point = worldPoint(m_scene, m_scene.instances[probe.instance], probe.point);
-    if (probe.back)
-        point.normal = -point.normal;
+    const WorldPoint point =
+        worldPoint(m_scene, m_scene.instances[probe.instance], probe.point, probe.back != 0);
     const glm::mat3 toWorld = basisAround(point.normal);
     const glm::vec3 from = m_trace.clearOf(point.position, point.normal);
     const DirectionSet directions(m_rays, false, probe.seed);

@@ -10,20 +10,20 @@
 
 namespace limn {
 
-WorldPoint worldPoint(const Scene& scene, const Instance& instance, const MeshPoint& point) {
+WorldPoint worldPoint(const Scene& scene, const Instance& instance, const MeshPoint& point,
+                      bool back) {
     const Mesh& mesh = scene.meshOf(instance);
     const auto [a, b, c] = mesh.triangle(point.triangle);
     const glm::vec3 pa = mesh.positions[a], pb = mesh.positions[b], pc = mesh.positions[c];
     const glm::vec2 uv = point.barycentric;
+    const glm::vec3 normal =
+        unitOr(instance.normalToWorld * glm::cross(pb - pa, pc - pa), glm::vec3(0, 1, 0));
     return {instance.toWorld * glm::vec4(pa * (1 - uv.x - uv.y) + pb * uv.x + pc * uv.y, 1),
-            unitOr(instance.normalToWorld * glm::cross(pb - pa, pc - pa), glm::vec3(0, 1, 0))};
+            back ? -normal : normal};
 }
 
 WorldPoint texelPoint(const Scene& scene, const AtlasTexel& texel, std::uint32_t k) {
-    WorldPoint p = worldPoint(scene, scene.instances[texel.instance], texel.points[k]);
-    if (texel.back)
-        p.normal = -p.normal;
-    return p;
+    return worldPoint(scene, scene.instances[texel.instance], texel.points[k], texel.back != 0);
 }
 
 Ray rayAbove(const TraceScene& trace, const WorldPoint& point, float height) {

@@ -11,9 +11,11 @@ namespace limn {
 
 /// A point of an instance in world space.
 struct WorldPoint {
-    glm::vec3 position, normal; ///< unit geometric normal of the front
+    glm::vec3 position, normal; ///< unit geometric normal
 };
-WorldPoint worldPoint(const Scene& scene, const Instance& instance, const MeshPoint& point);
+/// The normal is that of the front or, where `back`, of the back.
+WorldPoint worldPoint(const Scene& scene, const Instance& instance, const MeshPoint& point,
+                      bool back = false);
 
 /// Point k of a texel, with the normal of the side that the texel represents.
 WorldPoint texelPoint(const Scene& scene, const AtlasTexel& texel, std::uint32_t k);

@@ -53,10 +53,9 @@ LiftedPoint SideFinder::lift(const WorldPoint& point, float reach, std::uint32_t
 
 LiftedPoint SideFinder::lift(const MeshPoint& point, const AtlasTexel& texel,
                              std::uint32_t chart) const {
-    WorldPoint p = worldPoint(trace.scene(), trace.scene().instances[texel.instance], point);
-    if (texel.back)
-        p.normal = -p.normal;
-    return lift(p, texel.width, texel.instance, chart);
+    const Instance& instance = trace.scene().instances[texel.instance];
+    return lift(worldPoint(trace.scene(), instance, point, texel.back != 0), texel.width,
+                texel.instance, chart);
 }
 
 bool SideFinder::sees(const LiftedPoint& a, const LiftedPoint& b) const {

@@ -34,11 +34,6 @@ void addCache(const KeptLight& kept, std::size_t cache, F4 colour, F4 grey, std:
         sh[i] += F4{float(v[0]), float(v[1]), float(v[2]), 0} * (i < coloured ? colour : grey);
 }
 
-bool isFactor(const float* rgb) {
-    constexpr float kMaxFactor = 1e10f;
-    return std::all_of(rgb, rgb + 3, [](float f) { return f >= 0 && f <= kMaxFactor; });
-}
-
 bool isDark(const float* rgb) {
     return rgb[0] == 0 && rgb[1] == 0 && rgb[2] == 0;
 }
@@ -59,10 +54,11 @@ int limnrt_keep(limnrt_scene* s, uint32_t slot) {
 }
 
 int limnrt_mix(limnrt_scene* s, const float* rgb, uint32_t count) {
-    if (count > s->options.max_kept || (count > 0 && !rgb))
+    if (count > s->options.max_kept ||
+        (count > 0 && !finiteWithin(rgb, 3 * std::size_t(count), 0, kMaxLight)))
         return 0;
     for (std::size_t k = 0; k < count; ++k)
-        if (!isFactor(rgb + 3 * k) || (!s->kept[k].used && !isDark(rgb + 3 * k)))
+        if (!s->kept[k].used && !isDark(rgb + 3 * k))
             return 0;
     s->bounceLit = false;
     s->lightmapLit = s->gridLit = count > 0;

@@ -100,13 +100,6 @@ const char* takeOptions(const limnrt_options* given, limnrt_scene& s) {
     return nullptr;
 }
 
-bool finiteWithin(const float* v, std::size_t n, float lower, float upper) {
-    bool all = v != nullptr;
-    for (std::size_t k = 0; all && k < n; ++k)
-        all = v[k] >= lower && v[k] <= upper;
-    return all;
-}
-
 void changed(limnrt_scene& s, bool sky = false) {
     s.convergence.lightChanged(sky);
     s.ahead.clear();

@@ -88,6 +88,14 @@ void takeSky(limnrt_scene& scene, const float* rgb);
 /// Traces what is new among the scene's lights and sums their light.
 void takeLights(limnrt_scene& scene);
 
+/// Whether `v` is not null and its `n` numbers lie within [lower, upper].
+inline bool finiteWithin(const float* v, std::size_t n, float lower, float upper) {
+    bool all = v != nullptr;
+    for (std::size_t k = 0; all && k < n; ++k)
+        all = v[k] >= lower && v[k] <= upper;
+    return all;
+}
+
 /// Green half, red and blue a quarter each.
 inline float lumaOf(F4 rgb) {
     return rgb[1] * 0.5f + (rgb[0] + rgb[2]) * 0.25f;

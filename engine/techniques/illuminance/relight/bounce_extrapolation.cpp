@@ -69,14 +69,6 @@ glm::dvec3 weightOf(const BouncingSurfels& surfels, std::size_t i) {
     return glm::dvec3(surfels.albedo[i]) * double(surfels.area[i]);
 }
 
-struct ChangeSum : RoundChange {
-    void operator+=(const ChangeSum& other) {
-        change += other.change;
-        total += other.total;
-        relative += other.relative;
-    }
-};
-
 /// Squares of what went into two bounces, apart, and of what came out of them.
 struct PassedOnSum {
     glm::dvec3 into{0}, out{0}, all{0};
@@ -138,7 +130,7 @@ void BounceExtrapolation::end(const BouncingSurfels& surfels, std::span<glm::vec
 RoundChange BounceExtrapolation::takeChange(const BouncingSurfels& surfels,
                                             std::span<const glm::vec3> irradiance) {
     PerSurfel& change = m_change[m_newest];
-    return sumOver<ChangeSum>(irradiance.size(), [&](ChangeSum& sum, std::size_t i) {
+    return sumOver<RoundChange>(irradiance.size(), [&](RoundChange& sum, std::size_t i) {
         change[i] = irradiance[i] - change[i];
         const glm::vec3 sent = glm::abs(change[i] * surfels.albedo[i]);
         const float changed = sent.x + sent.y + sent.z,

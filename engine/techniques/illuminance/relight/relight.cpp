@@ -297,11 +297,8 @@ RoundChange Relighter::State::lightSurfels() {
             blockChange[k] = lightBlock(k * kBlock, std::min((k + 1) * kBlock, s.size()));
     });
     RoundChange round;
-    for (const RoundChange& block : blockChange) {
-        round.change += block.change;
-        round.total += block.total;
-        round.relative += block.relative;
-    }
+    for (const RoundChange& block : blockChange)
+        round += block;
     return round;
 }
 

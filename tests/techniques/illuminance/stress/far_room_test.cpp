@@ -86,8 +86,8 @@ double sumOf(const RelitState& light) {
 
 // The origins are multiples of the 16 m that the room's diagonal is rounded to, so that nothing but
 // the rounding of doubles to floats is left between the scenes: it makes some rays of the caches
-// meet another surfel, so that now and then one surfel is given another place of its patch. Of 400,
-// one is a 400th of the light.
+// meet another surfel, so that now and then one surfel is given another place of its patch. One of
+// 400 surfels has about a 400th of the light.
 TEST(FarRoom, IsLitAsItIsNearby) {
     constexpr double kOneSurfel = 1.0 / 400;
     const Result<LitScene> near = bakeAndLight(roomAt(0), {});

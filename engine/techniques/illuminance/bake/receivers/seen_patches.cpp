@@ -38,10 +38,8 @@ bool isBack(const SurfelSet& set, std::uint32_t surfel, const Scene& scene) {
 
 WorldPoint placeOf(const Scene& scene, const SurfelSet& set, std::uint32_t surfel,
                    const MeshPoint& point) {
-    WorldPoint p = worldPoint(scene, scene.instances[set.surfels.instance[surfel]], point);
-    if (isBack(set, surfel, scene))
-        p.normal = -p.normal;
-    return p;
+    return worldPoint(scene, scene.instances[set.surfels.instance[surfel]], point,
+                      isBack(set, surfel, scene));
 }
 
 /// Shares of the irradiance of a bright hemisphere that come from the sky's directions and from

@@ -52,10 +52,7 @@ WorldPoint pointIn(const Scene& scene, const Instance& instance, const OwnedCell
             break;
         }
     }
-    WorldPoint result = worldPoint(scene, instance, {cell.triangle, place});
-    if (cell.back)
-        result.normal = -result.normal;
-    return result;
+    return worldPoint(scene, instance, {cell.triangle, place}, cell.back);
 }
 
 /// What the cells of a patch sum up to.

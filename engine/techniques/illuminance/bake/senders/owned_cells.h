@@ -14,7 +14,7 @@ namespace limn {
 struct OwnedCell {
     std::uint32_t surfel, triangle;
     bool back;                    ///< of the two sides of the triangle
-    glm::vec2 origin, across, up; ///< (u, v) of a corner, and the sides that end there
+    glm::vec2 origin, across, up; ///< (u, v) of a corner, and the sides from there
     glm::vec2 middle; ///< (u, v) of the middle of what lies in the triangle, or of the cell's
     double area;      ///< of its share of the triangle [m^2]
 };

@@ -59,7 +59,7 @@ struct Patches {
     RaisedPoint raisedPoint(const MeshPoint& point, bool back, float height) const;
     void raiseCells(std::span<CellToOwn> cells) const;
     bool onSameSide(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t surfel) const;
-    void findOwners(std::span<CellToOwn> cells, std::span<std::uint32_t> owner) const;
+    bool findOwners(std::span<CellToOwn> cells, std::span<std::uint32_t> owner) const;
     std::uint32_t ownerAt(const MeshPoint& point, const RaisedPoint& from,
                           std::uint32_t nearestOwner, bool back) const;
     std::uint32_t ownerOfPart(const MeshPoint& point, std::uint32_t ownerOfCell, bool back) const;
@@ -79,11 +79,7 @@ void Patches::raiseSurfels() {
 }
 
 WorldPoint Patches::placeOf(const MeshPoint& point, bool back) const {
-    const Scene& scene = trace.scene();
-    WorldPoint p = worldPoint(scene, scene.instances[instance], point);
-    if (back)
-        p.normal = -p.normal;
-    return p;
+    return worldPoint(trace.scene(), trace.scene().instances[instance], point, back);
 }
 
 RaisedPoint Patches::raisedPoint(const MeshPoint& point, bool back, float height) const {
@@ -99,8 +95,8 @@ bool Patches::onSameSide(const RaisedPoint& cell, glm::vec3 normal, std::uint32_
     });
 }
 
-/// Raises a place of each cell: its middle or, where that is covered, one closer to the corners
-/// that is not.
+/// Raises a place of each cell: its middle or, where that is covered, an open one closer to the
+/// corners.
 void Patches::raiseCells(std::span<CellToOwn> cells) const {
     constexpr std::array<glm::vec2, 4> kToCorners = {glm::vec2(-1), glm::vec2(1, -1),
                                                      glm::vec2(-1, 1), glm::vec2(1)};
@@ -140,8 +136,8 @@ void Patches::raiseCells(std::span<CellToOwn> cells) const {
 
 /// Writes the surfels that own `cells` to `owner`, the entries of partedOwners(). Most cells lie on
 /// the side of the surfel nearest to them: rays that are traced together tell which do, and only
-/// the others are asked about one by one.
-void Patches::findOwners(std::span<CellToOwn> cells, std::span<std::uint32_t> owner) const {
+/// the others are asked about one by one. Returns whether any belongs to another surfel.
+bool Patches::findOwners(std::span<CellToOwn> cells, std::span<std::uint32_t> owner) const {
     raiseCells(cells);
     const auto entry = [&](const CellToOwn& cell) -> std::uint32_t& {
         return owner[cell.cell.index + (cell.back ? owners.cells() : 0)];
@@ -155,9 +151,13 @@ void Patches::findOwners(std::span<CellToOwn> cells, std::span<std::uint32_t> ow
     }
     along.flush(isBeside);
     rays += along.traced();
+    bool differs = false;
     for (const CellToOwn& cell : cells)
-        if (entry(cell) == kBehind)
+        if (entry(cell) == kBehind) {
             entry(cell) = ownerAt(cell.middle(), cell.from, cell.surfel, cell.back);
+            differs |= entry(cell) != cell.surfel;
+        }
+    return differs;
 }
 
 /// The surfel on the same side of all walls as a point, which is raised to `from`: the nearest one,
@@ -208,10 +208,8 @@ std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& 
     owners.forTriangles(mesh, progress, [&](std::uint32_t begin, std::uint32_t end) {
         std::vector<CellToOwn> cells;
         const auto finish = [&] {
-            patches.findOwners(cells, result);
-            for (const CellToOwn& cell : cells)
-                if (result[cell.cell.index + (cell.back ? owners.cells() : 0)] != cell.surfel)
-                    differs = true;
+            if (patches.findOwners(cells, result))
+                differs = true;
             cells.clear();
         };
         for (std::uint32_t side = 0; side < sides; ++side)

@@ -31,8 +31,8 @@ bool SurfelOwners::blocksLieWithin(const Mesh& mesh) const {
     return within;
 }
 
-/// Area of that part of column i's cell j, a square of side 1, that lies below the line from (0,
-/// up) to (across, 0).
+/// Area of the part of the unit square with lower corner (i, j) that lies below the line from
+/// (0, up) to (across, 0).
 static double areaBelow(double across, double up, double i, double j) {
     // The line's height above the cell's floor falls from `high` to `low`; heights count in [0, 1].
     const double slope = up / across, high = up - slope * i - j, low = high - slope;

@@ -17,7 +17,7 @@ namespace limn {
 /// Finds the nearest of a mesh's surfels on front sides. Keeps references to them.
 NearestPoint nearestFront(const MeshSurfels& surfels);
 
-/// Whether barycentrics (u, v) are those of a point of the triangle.
+/// Whether barycentrics (u, v) are those of a point in the triangle.
 inline bool isInTriangle(glm::vec2 uv) {
     return uv.x >= 0 && uv.y >= 0 && uv.x + uv.y <= 1;
 }
@@ -66,10 +66,11 @@ public:
     void forTriangles(const Mesh& mesh, const Progress& progress,
                       const std::function<void(std::uint32_t, std::uint32_t)>& visit) const;
 
-    /// A parallelogram of barycentrics (u, v). The triangle may cut it.
+    /// A cell of the table: a parallelogram in barycentrics (u, v), which may reach beyond the
+    /// triangle.
     struct Cell {
         std::uint32_t index;
-        glm::vec2 origin, across, up; ///< a corner in the triangle, and the sides that end there
+        glm::vec2 origin, across, up; ///< a corner in the triangle, and the sides from there
         float inside; ///< of the cell's diagonal from `origin`, where the middle of its part in the
                       ///< triangle lies; 1/2: the cell is not cut
         double share; ///< of the triangle's area that lies in the cell
@@ -109,9 +110,9 @@ public:
     }
 
 private:
-    /// The cells in one cell of the density: `across` along u, `up` along v. Triangles that are
-    /// undivided count u and v from `corner`, which is opposite to their longest side, so that
-    /// cells along both others are least in number.
+    /// How a cell of the density is divided: `across` cells along u and `up` along v. Where it is
+    /// a whole triangle, u and v start at its corner `corner`, opposite to the longest side, which
+    /// takes the fewest cells.
     struct Block {
         std::uint32_t begin;
         std::uint32_t corner;
