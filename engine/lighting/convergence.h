@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -75,6 +76,7 @@ public:
         m_grown = 1;
         m_passedOn = 0;
         m_latest = {};
+        m_excess = 0;
     }
     /// Call this where the sky or the occlusion of links has changed. Such a change reaches the
     /// caches in the first round and the surfels' radiosity only in the second.
@@ -84,6 +86,19 @@ public:
     }
     /// The rounds since the light changed.
     std::uint32_t rounds() const { return m_rounds; }
+    /// The rounds that are still needed if each passes on as little as any of the latest ones; at
+    /// least 1.
+    std::uint32_t expectedRounds() const {
+        if (m_rounds < kBringing)
+            return kBringing - m_rounds;
+        double q = 1;
+        for (const double share : m_latest)
+            if (share > 0)
+                q = std::min(q, share);
+        if (!(q < 1 && m_excess > 1))
+            return 1;
+        return std::uint32_t(std::clamp(std::ceil(std::log(m_excess) / -std::log(q)), 1., 1e6));
+    }
     /// Rounds that bring what has changed; each one after them reflects the one before.
     static constexpr std::uint32_t kBringing = 2;
 
@@ -127,8 +142,9 @@ public:
 private:
     static constexpr double kRounding = 1.001, kMaximum = 0.99999;
 
-    bool isReached(const RoundChange& round, double toCome) const {
+    bool isReached(const RoundChange& round, double toCome) {
         const double tolerance = double(m_settings.tolerance) / 100;
+        m_excess = std::max(round.ofAll(), round.relative) * toCome / tolerance;
         return round.ofAll() * toCome < tolerance && round.relative * toCome < tolerance;
     }
 
@@ -140,6 +156,7 @@ private:
     bool m_reached = false;
     std::uint32_t m_unseenRounds = 0, m_rounds = 0, m_growing = 0;
     double m_before = 0, m_passedOn = 0, m_grown = 1;
+    double m_excess = 0; ///< change to come after the latest round, relative to what is tolerated
     std::array<double, 4> m_latest{}; ///< shares passed on by the latest rounds
 };
 

@@ -49,4 +49,9 @@ Oct16 packOct(glm::vec3 d) {
     return {snorm(p.x), snorm(p.y)};
 }
 
+std::uint32_t packOctWord(glm::vec3 d) {
+    const Oct16 packed = packOct(d);
+    return packed.x | std::uint32_t(packed.y) << 16;
+}
+
 } // namespace limn

@@ -39,6 +39,8 @@ struct Oct16 {
     std::uint16_t x, y;
 };
 Oct16 packOct(glm::vec3 d);
+/// packOct() in one word, x in its lower half, as unpackSnorm2x16() of GLSL reads it.
+std::uint32_t packOctWord(glm::vec3 d);
 
 /// Unnormalised octahedral direction; must be normalised before use.
 inline glm::vec3 unpackOctUnnormalised(std::uint16_t px, std::uint16_t py) {

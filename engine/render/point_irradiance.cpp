@@ -44,7 +44,7 @@ VkDeviceSize PointIrradiance::bytes() const {
     return m_kept.unit.size + m_kept.places.size;
 }
 
-void PointIrradiance::record(VkCommandBuffer cmd, const ShadowedLights& lights) {
+void PointIrradiance::dispatchLights(VkCommandBuffer cmd, const ShadowedLights& lights) {
     gpu::writeBuffer(m_device, m_set, 0, kBuffer, lights.lights);
     gpu::writeBuffer(m_device, m_set, 1, kBuffer, lights.shadowViews);
     gpu::writeTexture(m_device, m_set, 2, lights.atlas, lights.sampler);
@@ -67,20 +67,22 @@ void PointIrradiance::record(VkCommandBuffer cmd, const ShadowedLights& lights) 
     }
 }
 
-bool PointIrradiance::update(const ShadowedLights& lights) {
-    lightsComputed = 0;
-    ms = 0;
-    if (m_version == lights.version)
-        return false;
+void PointIrradiance::record(VkCommandBuffer cmd, const ShadowedLights& lights) {
     m_version = lights.version;
     m_kept.assign(lights);
     lightsComputed = m_kept.fresh + lights.count - m_kept.kept;
-    m_device.immediate("irradiance of points", [&](VkCommandBuffer cmd) {
-        m_times.begin(cmd);
-        record(cmd, lights);
-        m_times.mark(cmd);
-    });
-    ms = m_times.steps()[0];
+    m_times.begin(cmd);
+    dispatchLights(cmd, lights);
+    m_times.mark(cmd);
+}
+
+bool PointIrradiance::update(const ShadowedLights& lights) {
+    lightsComputed = 0;
+    ms = 0;
+    if (isCurrent(lights))
+        return false;
+    m_device.immediate("irradiance of points", [&](VkCommandBuffer cmd) { record(cmd, lights); });
+    finish();
     return true;
 }
 

@@ -15,7 +15,8 @@ namespace limn {
 /// Where points lie on the device, and where their irradiance goes.
 struct PointBuffers {
     /// `stride` vec4s per point. The first holds its position [m], the second its unit normal on
-    /// the side that is lit; their fourth components are not read.
+    /// the side that is lit; their fourth components are not read. With a stride of 1, the fourth
+    /// component has the bits of packOctWord() of the normal.
     VkBuffer points = VK_NULL_HANDLE;
     std::uint32_t stride = 2;
     std::uint32_t together = 1; ///< so many points that follow each other have one irradiance
@@ -36,19 +37,26 @@ public:
     /// whether it was computed.
     bool update(const ShadowedLights& lights);
 
+    /// The same as a part of the caller's work: isCurrent() says whether update() would do nothing,
+    /// record() does what it would do, and finish() reads the time once that has completed.
+    bool isCurrent(const ShadowedLights& lights) const { return m_version == lights.version; }
+    void record(VkCommandBuffer cmd, const ShadowedLights& lights);
+    void finish() { ms = m_times.steps()[0]; }
+
     /// Whatever wrote into the irradiance in between: the next update() computes it again.
     void forget() { m_version.reset(); }
 
     /// The points have moved: the next update() computes what every light brings to them.
     void pointsChanged();
 
-    std::uint32_t lightsComputed = 0; ///< by the last update(), those without a place among them
+    std::uint32_t lightsComputed = 0; ///< by the last update(), those without a place among them;
+                                      ///< 0 where it did nothing
     double ms = 0;                    ///< GPU time of the last update()
     std::uint64_t dispatches = 0;     ///< so far
     VkDeviceSize bytes() const;       ///< of what is kept for the lights
 
 private:
-    void record(VkCommandBuffer cmd, const ShadowedLights& lights);
+    void dispatchLights(VkCommandBuffer cmd, const ShadowedLights& lights);
 
     gpu::Device& m_device;
     PointBuffers m_buffers;

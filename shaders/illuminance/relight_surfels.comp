@@ -35,6 +35,6 @@ void main() {
             sum += changes[k].xyz;
             brightest = max(brightest, changes[k].w);
         }
-        change[groupIndex()] = vec4(sum, brightest);
+        change[range.changeBegin + groupIndex()] = vec4(sum, brightest);
     }
 }

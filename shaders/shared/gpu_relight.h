@@ -22,7 +22,7 @@ using uint = std::uint32_t;
 #define RELIGHT_INDIRECT 4u  // irradiance per surfel [W m^-2]
 #define RELIGHT_RADIOSITY 5u // per node of the tree [W m^-2]
 #define RELIGHT_CHANGE                                                                             \
-    6u // vec4 per group of surfels: change, total, times area [W]; brightest [W m^-2]
+    6u // vec4 per bounce and group of surfels: change, total, times area [W]; brightest [W m^-2]
 #define RELIGHT_INNER_NODES 7u   // GpuInnerNode, level after level
 #define RELIGHT_LEVELS 8u        // where each level begins among the inner nodes
 #define RELIGHT_CACHES 9u        // GpuCache per cache
@@ -63,6 +63,7 @@ struct GpuRelightRange {
     uint lightmapCaches; // field: caches below this are texels, the others cells
     uint gridCells;
     float fieldScale; // field: scale of its half floats
+    uint changeBegin; // surfels: first vec4 of the bounce's changes
 };
 // clang-format on
 
@@ -71,7 +72,7 @@ static_assert(sizeof(GpuSurfel) == 64);
 static_assert(sizeof(GpuInnerNode) == 16);
 static_assert(sizeof(GpuCache) == 32);
 static_assert(sizeof(GpuFill) == 16);
-static_assert(sizeof(GpuRelightRange) == 20);
+static_assert(sizeof(GpuRelightRange) == 24);
 } // namespace limn::shared
 #endif
 

@@ -11,7 +11,7 @@ const float kPi = 3.14159265358979;
 #include "shaders/shared/rectangle_light.glsl"
 #include "shaders/shared/surface_pack.glsl"
 
-layout(constant_id = 1) const uint kStride = 2; // vec4s of a point: its position, its unit normal, others
+layout(constant_id = 1) const uint kStride = 2; // words of 16 bytes of a point: its position, its unit normal, others; 1: both in one
 layout(constant_id = 2) const uint kTogether = 1; // points whose mean is one irradiance
 
 layout(binding = 0, std430) readonly buffer Lights { GpuLight lights[]; };
@@ -20,7 +20,7 @@ layout(binding = 1, std430) readonly buffer ShadowViews { GpuShadowView shadowVi
 layout(binding = 2) uniform sampler2DArray shadowAtlas;
 layout(binding = 3, std430) buffer Unit { float unit[]; }; // places[k] * irradiances + irradiance
 layout(binding = 4, std430) readonly buffer Places { uint places[]; }; // then the fresh lights
-layout(binding = 5, std430) readonly buffer Points { vec4 points[]; };
+layout(binding = 5, std430) readonly buffer Points { uvec4 points[]; };
 layout(binding = 6, std430) buffer Direct { vec4 direct[]; };
 
 layout(push_constant) uniform Push {
@@ -59,11 +59,17 @@ float unitIrradianceAt(uint k, Point s, uint i) {
     return lit ? irradiance * NoL * visibility(light, s.position, s.normal, toLight, bias, lit) : 0.0;
 }
 
+Point pointAt(uint j) {
+    const uvec4 p = points[j * kStride];
+    const vec3 normal = kStride == 1 ? octDecode(unpackSnorm2x16(p.w)) : uintBitsToFloat(points[j * kStride + 1].xyz);
+    return Point(uintBitsToFloat(p.xyz), normal);
+}
+
 // Mean over the points of irradiance i.
 float unitIrradiance(uint k, uint i) {
     float sum = 0.0;
     for (uint j = i * kTogether; j < (i + 1) * kTogether; ++j)
-        sum += unitIrradianceAt(k, Point(points[j * kStride].xyz, points[j * kStride + 1].xyz), j);
+        sum += unitIrradianceAt(k, pointAt(j), j);
     return sum / float(kTogether);
 }
 

@@ -46,12 +46,6 @@ std::vector<Source> findSources(const Scene& scene, const LightmapLayout& layout
     return sources;
 }
 
-/// packOct() in one word, x in its lower half, as unpackSnorm2x16() of GLSL reads it.
-std::uint32_t packNormal(glm::vec3 n) {
-    const Oct16 packed = packOct(n);
-    return packed.x | std::uint32_t(packed.y) << 16;
-}
-
 std::uint32_t packAlbedo(glm::vec3 albedo, std::uint32_t flags) {
     return (glm::packUnorm4x8(glm::vec4(glm::sqrt(albedo), 0)) & 0xffffffU) | flags << 24;
 }
@@ -71,7 +65,7 @@ GpuNearTriangle makeTriangle(const Scene& scene, const LightmapLayout& layout, S
     for (std::size_t k = 0; k < 3; ++k) {
         p[k] = glm::vec3(instance.toWorld * glm::vec4(mesh.positions[corners[k]], 1));
         const glm::vec2 barycentric(k == 1 ? 1 : 0, k == 2 ? 1 : 0);
-        normal[k] = packNormal(shadingNormal(mesh, instance, s.triangle, barycentric, front));
+        normal[k] = packOctWord(shadingNormal(mesh, instance, s.triangle, barycentric, front));
     }
     const auto uvOf = [&](std::size_t k) { return uv[split[3 * s.triangle + k]]; };
     // A mirrored instance has its front on the clockwise side.

@@ -16,12 +16,13 @@
 #include <cassert>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 namespace limn {
 
 namespace {
 
-constexpr std::uint32_t kMaxSteps = 4;
+constexpr std::uint32_t kBounceSteps = 4, kMaxSteps = kBounceSteps * RelightBuffers::kBounces + 1;
 
 using Clock = std::chrono::steady_clock;
 
@@ -35,12 +36,28 @@ struct Sent {
     const gpu::Buffer* buffer = nullptr;
 };
 
+/// Caches that are lit now, and caches that are written into the field after that.
+struct FieldWork {
+    CacheList light, write;
+    bool grid = false; ///< the grid is lit and written
+};
+
+/// What one submission does, in this order.
+struct Work {
+    const ShadowedLights* lights = nullptr; ///< light surfels
+    std::uint32_t bounces = 0;              ///< kBounces at most
+    CacheList read, last;                   ///< caches that bounces light, and that the last lights
+    bool lastIsRead = true;                 ///< surfels read what the last bounce lit
+    std::optional<FieldWork> field;
+};
+
 } // namespace
 
 struct GpuRelighter::State {
     State(gpu::Device& d, std::shared_ptr<const Bake> b, RelightBuffers made)
         : device(d), bake(std::move(b)), buffers(std::move(made)), times(d, kMaxSteps),
           surfelIrradiance(d, {.points = buffers.lightPoints.handle,
+                               .stride = 1,
                                .together = bake->surfels.litAtEach(),
                                .irradiance = buffers.direct.handle,
                                .count = std::uint32_t(bake->surfels.size())}),
@@ -72,8 +89,10 @@ struct GpuRelighter::State {
     std::array<std::vector<std::uint32_t>, RelightBuffers::kCacheLists> lists; ///< as sent
     std::vector<std::uint32_t> order;                                          ///< working space
     CacheFlags read;
-    CacheFlags current;       ///< caches for which the field holds the light of the last pull
-    bool unread = false;      ///< surfels have not read that light yet
+    CacheFlags current;   ///< caches for which the field holds the light of the last pull
+    bool unread = false;  ///< surfels have not read that light yet
+    bool putsOff = false; ///< the last bounce of this call lights `lit` alone
+    const ShadowedLights* newLights = nullptr; ///< of this call, which surfels are to be lit by
     CacheFlags lit, unlit;    ///< caches that this call lights; of those, the ones still to be lit
     bool gridLit = false;     ///< the field has a grid
     bool gridMissing = false; ///< and has had it since this call
@@ -85,11 +104,14 @@ struct GpuRelighter::State {
     bool setBands(std::uint32_t bands);
     void countLinks(const CacheFlags& lightmap, bool grid);
     bool upload(const SurfelInputs& inputs, GpuRelightStats& stats, bool& skyChanged);
-    bool lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats);
     bool occlude(const Scene* scene, GpuRelightStats& stats);
-    RoundChange bounce(CacheList caches, bool surfelsRead, GpuRelightStats& stats);
+    void record(VkCommandBuffer cmd, const Work& work);
+    void run(const Work& work, GpuRelightStats& stats);
+    RoundChange changeOf(std::uint32_t bounce);
+    Work nextBounces(std::uint32_t count, bool grid);
+    FieldWork fieldWork(const CacheFlags& write, bool grid);
     float brightestCoefficient() const;
-    void writeField(bool grid, GpuRelightStats& stats);
+    void finishField(const Work& before, bool grid, GpuRelightStats& stats);
     std::vector<glm::vec3> readColors(const gpu::Buffer& buffer, std::size_t count) const;
 };
 
@@ -193,16 +215,6 @@ bool GpuRelighter::State::upload(const SurfelInputs& inputs, GpuRelightStats& st
     return changed;
 }
 
-/// Returns true if the lights had changed.
-bool GpuRelighter::State::lightSurfels(const ShadowedLights& lights, GpuRelightStats& stats) {
-    if (!surfelIrradiance.update(lights))
-        return false;
-    direct.values.clear(); // the uploaded values are overwritten
-    stats.lightsTraced = surfelIrradiance.lightsComputed;
-    stats.directMs = surfelIrradiance.ms;
-    return true;
-}
-
 /// Returns true if the occlusion of some link changed.
 bool GpuRelighter::State::occlude(const Scene* scene, GpuRelightStats& stats) {
     const auto start = Clock::now();
@@ -251,36 +263,64 @@ void GpuRelighter::State::lightRest() {
     unread = false;
 }
 
-/// Runs one iteration.
-RoundChange GpuRelighter::State::bounce(CacheList caches, bool surfelsRead,
-                                        GpuRelightStats& stats) {
-    device.immediate("bounce", [&](VkCommandBuffer cmd) {
-        gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after inputs were sent
-        times.begin(cmd);
-        steps->recordSurfels(cmd);
+void GpuRelighter::State::record(VkCommandBuffer cmd, const Work& work) {
+    gpu::memoryBarrier(cmd, gpu::kAllWrites,
+                       gpu::kComputeWrite); // after inputs and lists were sent
+    if (work.lights)
+        surfelIrradiance.record(cmd, *work.lights);
+    times.begin(cmd);
+    for (std::uint32_t k = 0; k < work.bounces; ++k) {
+        const bool last = k + 1 == work.bounces;
+        steps->recordSurfels(cmd, k);
         times.mark(cmd);
         steps->recordPull(cmd);
         times.mark(cmd);
-        steps->recordLightmapCaches(cmd, caches);
+        steps->recordLightmapCaches(cmd, last ? work.last : work.read);
         times.mark(cmd);
-        if (surfelsRead)
+        if (!last || work.lastIsRead)
             steps->recordIndirect(cmd);
         times.mark(cmd);
-        gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kHostRead);
-    });
+    }
+    if (work.field) {
+        if (work.field->light.end > work.field->light.begin)
+            steps->recordLightmapCaches(cmd, work.field->light);
+        steps->recordFinalCaches(cmd, work.field->write, work.field->grid);
+        steps->recordField(cmd, work.field->write, work.field->grid, fieldScale);
+        times.mark(cmd);
+    }
+    gpu::memoryBarrier(cmd, gpu::kComputeWrite, gpu::kHostRead);
+}
+
+/// Submits, waits, and adds up the times.
+void GpuRelighter::State::run(const Work& work, GpuRelightStats& stats) {
+    device.immediate("relight", [&](VkCommandBuffer cmd) { record(cmd, work); });
+    if (work.lights) {
+        surfelIrradiance.finish();
+        direct.values.clear(); // the uploaded values are overwritten
+        stats.lightsTraced = surfelIrradiance.lightsComputed;
+        stats.directMs = surfelIrradiance.ms;
+    }
     const std::span<const double> ms = times.steps();
-    stats.surfelLightMs += ms[0] + ms[3];
-    stats.pullMs += ms[1];
-    stats.cacheLightMs += ms[2];
-    ++stats.bounces;
+    for (std::uint32_t k = 0; k < work.bounces; ++k) {
+        const std::span<const double> bounce = ms.subspan(std::size_t(kBounceSteps) * k);
+        stats.surfelLightMs += bounce[0] + bounce[3];
+        stats.pullMs += bounce[1];
+        stats.cacheLightMs += bounce[2];
+    }
+    stats.bounces += work.bounces;
+    if (work.field)
+        stats.fieldMs += ms.back();
+}
+
+/// The change of a bounce of the latest submission. Sets `brightest`.
+RoundChange GpuRelighter::State::changeOf(std::uint32_t bounce) {
     RoundChange round;
-    const auto* groups = static_cast<const glm::vec4*>(buffers.change.mapped);
+    const std::size_t groups = buffers.change.size / sizeof(glm::vec4) / RelightBuffers::kBounces;
+    const auto* begin = static_cast<const glm::vec4*>(buffers.change.mapped) + bounce * groups;
     brightest = 0;
-    for (std::size_t g = 0; g < buffers.change.size / sizeof(glm::vec4); ++g) {
-        brightest = std::max(brightest, groups[g].w);
-        round.change += double(groups[g].x);
-        round.total += double(groups[g].y);
-        round.relative += double(groups[g].z);
+    for (const glm::vec4& group : std::span(begin, groups)) {
+        brightest = std::max(brightest, group.w);
+        round += {double(group.x), double(group.y), double(group.z)};
     }
     return round;
 }
@@ -294,28 +334,52 @@ float GpuRelighter::State::brightestCoefficient() const {
     return 1.13f * maximum;
 }
 
-/// Writes the caches that are to be lit, and the grid, into the field. Where the scale has to
-/// change, which happens only after another bounce, it also rewrites all that was lit before.
-void GpuRelighter::State::writeField(bool grid, GpuRelightStats& stats) {
+/// Bounces of one submission, of `count` that are still wanted: as many as are expected to be
+/// needed, less a fourth, because none after the last needed one would be of use. The field follows
+/// where those are all.
+Work GpuRelighter::State::nextBounces(std::uint32_t count, bool grid) {
+    const std::uint32_t expected = convergence.expectedRounds();
+    Work work;
+    work.bounces = std::min({count, RelightBuffers::kBounces, expected - expected / 4});
+    const bool ends = work.bounces == count;
+    unread = putsOff && ends;
+    work.lastIsRead = !unread;
+    const CacheFlags& last = unread ? lit : read;
+    for (std::uint32_t k = 0; k < work.bounces; ++k)
+        countLinks(k + 1 < work.bounces ? read : last, false);
+    work.read = list(kRead, read);
+    work.last = unread ? list(kLit, lit) : work.read;
+    unlit = lit;
+    removeFrom(unlit, last);
+    if (ends && fieldScale > 0)
+        work.field = fieldWork(lit, grid);
+    return work;
+}
+
+/// Lights the caches that are to be lit and writes `write` and, if `grid` is true, the grid.
+FieldWork GpuRelighter::State::fieldWork(const CacheFlags& write, bool grid) {
+    const FieldWork work = {list(kRest, unlit), list(kLit, write), grid};
+    countLinks(unlit, grid);
+    unlit.assign(unlit.size(), 0);
+    return work;
+}
+
+/// Writes the field, unless `before` has. Where the scale has to change, which happens only after
+/// another bounce, it also rewrites all that was lit before.
+void GpuRelighter::State::finishField(const Work& before, bool grid, GpuRelightStats& stats) {
     const bool rescaled = !scaleServes(fieldScale, brightestCoefficient());
+    Work work{.lights = newLights};
+    newLights = nullptr;
     if (rescaled) {
         fieldScale = limn::fieldScale(brightestCoefficient());
         everyCache.assign(bake->caches.lightmapCount, 1);
-        grid = gridLit;
+        work.field = fieldWork(everyCache, gridLit);
+    } else if (!before.field) {
+        work.field = fieldWork(lit, grid);
     }
-    const CacheList toWrite = list(kLit, rescaled ? everyCache : lit), toLight = list(kRest, unlit);
-    countLinks(unlit, grid);
-    device.immediate("field", [&](VkCommandBuffer cmd) {
-        gpu::memoryBarrier(cmd, gpu::kAllWrites, gpu::kComputeWrite); // after lists were sent
-        times.begin(cmd);
-        if (toLight.end > toLight.begin)
-            steps->recordLightmapCaches(cmd, toLight);
-        steps->recordFinalCaches(cmd, toWrite, grid);
-        steps->recordField(cmd, toWrite, grid, fieldScale);
-        times.mark(cmd);
-    });
+    if (work.field)
+        run(work, stats);
     buffers.field->scale = fieldScale;
-    stats.fieldMs = times.steps()[0];
     ++fieldVersion;
 }
 
@@ -324,8 +388,9 @@ bool GpuRelighter::State::takeInputs(const SurfelInputs& inputs, bool newBands,
                                      GpuRelightStats& stats) {
     bool skyChanged = false;
     bool surfelsChanged = upload(inputs, stats, skyChanged) || newBands;
-    if (inputs.lights)
-        surfelsChanged |= lightSurfels(*inputs.lights, stats);
+    newLights =
+        inputs.lights && !surfelIrradiance.isCurrent(*inputs.lights) ? inputs.lights : nullptr;
+    surfelsChanged |= newLights != nullptr;
     const bool occlusionChanged = occlude(inputs.occluders, stats);
     const auto gridCaches = std::uint32_t(bake->caches.size()) - bake->caches.lightmapCount;
     const bool grid = inputs.grid && gridCaches > 0;
@@ -364,15 +429,16 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     CacheFlags& lit = s.lit;
     setMissing(caches, s.current, seen, lit);
     s.unlit = lit;
-    const bool mayPutOff = seen != nullptr && bounces > 1 && !s.steps->dropsChroma();
-    for (std::uint32_t k = 0; bouncing && k < bounces && !s.convergence.reached(); ++k) {
-        s.unread = mayPutOff && k + 1 == bounces;
-        const CacheFlags& now = s.unread ? lit : s.read;
-        s.countLinks(now, false);
-        s.convergence.addRound(
-            s.bounce(s.list(s.unread ? State::kLit : State::kRead, now), !s.unread, stats));
-        s.unlit = lit;
-        removeFrom(s.unlit, now);
+    s.putsOff = seen != nullptr && bounces > 1 && !s.steps->dropsChroma();
+    const bool grid = s.gridLit && (bouncing || s.gridMissing);
+    Work work;
+    while (bouncing && stats.bounces < bounces && !s.convergence.reached()) {
+        work = s.nextBounces(bounces - stats.bounces, grid);
+        work.lights = std::exchange(s.newLights, nullptr);
+        s.run(work, stats);
+        for (std::uint32_t k = 0; k < work.bounces; ++k)
+            if (const RoundChange round = s.changeOf(k); !s.convergence.reached())
+                s.convergence.addRound(round);
         if (progress.cancelled())
             break;
     }
@@ -381,7 +447,7 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     stats.grows = s.convergence.grows();
     stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;
     if (!stats.skipped) {
-        s.writeField(s.gridLit && (bouncing || s.gridMissing), stats);
+        s.finishField(work, grid, stats);
         for (std::size_t c = 0; c < lit.size(); ++c)
             s.current[c] |= lit[c];
     }

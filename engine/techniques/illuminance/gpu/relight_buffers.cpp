@@ -2,6 +2,7 @@
 #include "engine/techniques/illuminance/gpu/relight_buffers.h"
 
 #include "engine/gpu/storage_maker.h"
+#include "engine/math/packing.h"
 #include "engine/techniques/illuminance/gpu/tree_levels.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
@@ -10,6 +11,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstring>
+
+#include <glm/glm.hpp>
 
 namespace limn {
 
@@ -27,13 +30,12 @@ static std::vector<GpuSurfel> packSurfels(const Bake& bake) {
     return out;
 }
 
-static std::vector<glm::vec4> packLightPoints(const Surfels& surfels) {
+static std::vector<glm::uvec4> packLightPoints(const Surfels& surfels) {
     const std::vector<glm::vec3>&positions = surfels.litAt(), &normals = surfels.litNormals();
-    std::vector<glm::vec4> out;
-    for (std::size_t k = 0; k < positions.size(); ++k) {
-        out.emplace_back(positions[k], 0);
-        out.emplace_back(normals[k], 0);
-    }
+    std::vector<glm::uvec4> out;
+    out.reserve(positions.size());
+    for (std::size_t k = 0; k < positions.size(); ++k)
+        out.emplace_back(glm::floatBitsToUint(positions[k]), packOctWord(normals[k]));
     return out;
 }
 
@@ -108,8 +110,8 @@ Result<RelightBuffers> createRelightBuffers(gpu::Device& device, const Bake& bak
         out.indirect = make.empty(surfels, color, "indirect irradiance");
         out.radiosity = make.empty(bake.tree.size(), color, "radiosity");
         out.sh = make.empty(bake.caches.size() * coefficients, color, "cache harmonics");
-        out.change = make.empty((surfels + lanes - 1) / lanes, sizeof(glm::vec4), "change",
-                                gpu::MemoryKind::Readback);
+        out.change = make.empty(RelightBuffers::kBounces * ((surfels + lanes - 1) / lanes),
+                                sizeof(glm::vec4), "change", gpu::MemoryKind::Readback);
         std::vector<std::uint32_t> order;
         for (std::uint32_t c = bake.caches.lightmapCount; c < bake.caches.size(); ++c)
             order.push_back(c);

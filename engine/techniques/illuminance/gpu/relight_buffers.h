@@ -18,10 +18,11 @@ namespace limn {
 /// contents.
 struct RelightBuffers {
     gpu::Buffer surfels, innerNodes, levels, caches, links, fills, fillSources; ///< of the bake
-    gpu::Buffer lightPoints;             ///< a position and a normal for each of Surfels::litAt()
+    gpu::Buffer lightPoints; ///< for each of Surfels::litAt() its position and packOctWord() of its
+                             ///< normal
     gpu::Buffer direct, albedo, emitted; ///< inputs
     gpu::Buffer indirect, radiosity, sh; ///< results of the steps; 0 at first
-    gpu::Buffer change;                  ///< mapped
+    gpu::Buffer change;                  ///< of kBounces bounces; mapped
     gpu::Buffer order; ///< the grid's caches, then room for kCacheLists lists of the lightmap's
     std::shared_ptr<const gpu::Buffer> gridDepth; ///< depth maps of the field's grid
     std::shared_ptr<GpuField> field;              ///< output, from makeRelitField()
@@ -31,6 +32,7 @@ struct RelightBuffers {
                   lightmapFills = 0; ///< number of invalid caches; those of the lightmap come first
 
     static constexpr std::size_t kCacheLists = 3;
+    static constexpr std::uint32_t kBounces = 4; ///< of one submission
 
     /// Buffers in the order of their bindings, without the lightmap's, which comes last.
     std::vector<const gpu::Buffer*> inBindingOrder() const;

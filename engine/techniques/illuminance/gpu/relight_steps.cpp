@@ -91,9 +91,11 @@ void RelightSteps::dispatch(VkCommandBuffer cmd, const gpu::Pipeline& step,
                                 std::as_bytes(std::span(&range, 1)), groups);
 }
 
-void RelightSteps::recordSurfels(VkCommandBuffer cmd) {
+void RelightSteps::recordSurfels(VkCommandBuffer cmd, std::uint32_t k) {
     const auto count = std::uint32_t(m_bake.surfels.size());
-    dispatch(cmd, m_surfels, {0, count}, groupsOf(count));
+    dispatch(cmd, m_surfels,
+             {.begin = 0, .end = count, .changeBegin = k * std::uint32_t(groupsOf(count))},
+             groupsOf(count));
 }
 
 void RelightSteps::recordPull(VkCommandBuffer cmd) {

@@ -28,9 +28,9 @@ public:
     RelightSteps(gpu::Device& device, const Bake& bake, const RelightBuffers& buffers,
                  LightBands bounce, LightBands final);
 
-    /// Computes B = albedo (E_direct + E_indirect) + pi L_e; change[group] = its (change, total,
-    /// brightest).
-    void recordSurfels(VkCommandBuffer cmd);
+    /// Computes B = albedo (E_direct + E_indirect) + pi L_e. Its changes in each group of surfels
+    /// are those of bounce `k` in RelightBuffers::change.
+    void recordSurfels(VkCommandBuffer cmd, std::uint32_t k);
     void recordPull(VkCommandBuffer cmd);
     /// Lights a list of the lightmap's caches in the bands of bounces, then fills all invalid ones.
     void recordLightmapCaches(VkCommandBuffer cmd, CacheList list);
