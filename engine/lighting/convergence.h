@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -88,69 +87,24 @@ public:
     std::uint32_t rounds() const { return m_rounds; }
     /// The rounds that are still needed if each passes on as little as any of the latest ones; at
     /// least 1.
-    std::uint32_t expectedRounds() const {
-        if (m_rounds < kBringing)
-            return kBringing - m_rounds;
-        double q = 1;
-        for (const double share : m_latest)
-            if (share > 0)
-                q = std::min(q, share);
-        if (!(q < 1 && m_excess > 1))
-            return 1;
-        return std::uint32_t(std::clamp(std::ceil(std::log(m_excess) / -std::log(q)), 1., 1e6));
-    }
+    std::uint32_t expectedRounds() const;
     /// Rounds that bring what has changed; each one after them reflects the one before.
     static constexpr std::uint32_t kBringing = 2;
 
     /// `uncertain`: a round has been seen to pass on all of a change, so that only a change of next
     /// to nothing ends rounds.
-    void addRound(RoundChange round, bool uncertain = false) {
-        const bool reflects = ++m_rounds > kBringing && m_before > 0;
-        m_passedOn = reflects ? round.change / m_before : 0;
-        m_before = round.change;
-        m_latest[m_rounds % m_latest.size()] = m_passedOn;
-        // Where changes are as small as a hundred roundings, shares scatter by some per cent: in a
-        // white room the first low one would end bounces 0.03 % to 0.1 % too early.
-        constexpr double kNoise = 0.999;
-        const double q = uncertain ? kMaximum : std::min(std::ranges::max(m_latest), kNoise);
-        const bool converged = isReached(round, following(q));
-        const bool more = m_passedOn > kRounding && !converged;
-        m_growing = more ? m_growing + 1 : 0;
-        m_grown = more ? m_grown * m_passedOn : 1;
-        m_reached = (converged && m_unseenRounds == 0 && m_rounds >= kBringing) || grows();
-        m_unseenRounds -= m_unseenRounds > 0;
-    }
+    void addRound(RoundChange round, bool uncertain = false);
 
     /// The same for a round after an extrapolation. `residual`: the change that another round
     /// would have brought without it. `passedOn`: the largest share of a change that a round has
     /// passed on, below 1. This share is not capped as in addRound(), because extrapolated light
     /// may change by no more than roundings from round to round while it is still far from its
     /// limit.
-    void addResidual(RoundChange residual, double passedOn) {
-        constexpr double kStricter = 4; // the share is measured over other sums than the change
-        ++m_rounds;
-        m_passedOn = passedOn;
-        m_before = residual.change;
-        m_latest = {passedOn};
-        m_reached = isReached(residual, kStricter * following(std::min(passedOn, kMaximum))) &&
-                    m_unseenRounds == 0;
-        m_growing = 0;
-        m_grown = 1;
-        m_unseenRounds -= m_unseenRounds > 0;
-    }
+    void addResidual(RoundChange residual, double passedOn);
 
 private:
-    static constexpr double kRounding = 1.001, kMaximum = 0.99999;
-
-    bool isReached(const RoundChange& round, double toCome) {
-        const double tolerance = double(m_settings.tolerance) / 100;
-        m_excess = std::max(round.ofAll(), round.relative) * toCome / tolerance;
-        return round.ofAll() * toCome < tolerance && round.relative * toCome < tolerance;
-    }
-
-    /// The sum of all changes that would follow the latest one, relative to it and at least 1, as a
-    /// geometric series of ratio q below 1.
-    static double following(double q) { return std::max(q / (1 - q), 1.); }
+    /// Whether a change and all that follow it, `toCome` times it, are tolerated.
+    bool isReached(const RoundChange& round, double toCome);
 
     RelightSettings m_settings;
     bool m_reached = false;
