@@ -20,6 +20,7 @@ static int runLimn(int argc, char** argv) {
     addLintCommand(program);
     addReferenceCommand(program);
     addRenderCommand(program);
+    addSolveCommand(program);
     addTuneCommand(program);
     const Command::Chosen chosen = program.parse(argc, argv);
     if (!chosen.action)

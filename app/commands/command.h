@@ -19,6 +19,7 @@ void addInfoCommand(Command& program);
 void addLintCommand(Command& program);
 void addExplainCommand(Command& program);
 void addExportCommand(Command& program);
+void addSolveCommand(Command& program);
 void addTuneCommand(Command& program);
 void addEditCommand(Command& program); ///< adds nothing in a program without Vulkan
 

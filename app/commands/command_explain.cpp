@@ -10,7 +10,6 @@
 #include "engine/picture/explain_pixel.h"
 #include "engine/scene/surface/reflection_lobe.h"
 
-#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -34,9 +33,6 @@ struct ExplainCommand {
     GivenSettings relighting; ///< instead of the document's
     bool json = false;
 };
-
-constexpr std::array<const char*, 2> kPixelLightNames = {"radiance", "irradiance"};
-constexpr std::array<const char*, 2> kUnits = {"W m^-2 sr^-1", "W m^-2"};
 
 std::uint32_t depthOf(const std::vector<LightRow>& rows, const LightRow& row) {
     return row.parent == LightRow::kNone ? 0 : 1 + depthOf(rows, rows[row.parent]);
@@ -103,12 +99,12 @@ Json tableJson(const std::vector<LightRow>& rows, glm::vec3 total) {
 }
 
 void printJson(const ExplainCommand& options, const PixelExplanation& e,
-               const std::optional<glm::vec3>& without, std::size_t unit, double ms) {
+               const std::optional<glm::vec3>& without, PixelLight light, double ms) {
     Json json = {{"pick", options.pick},
                  {"width", options.camera.width},
                  {"height", options.camera.height},
                  {"light", options.light},
-                 {"unit", kUnits[unit]},
+                 {"unit", unitOf(light)},
                  {"total", rgbJson(e.total)},
                  {"luminance", luminance(glm::dvec3(e.total))},
                  {"objects", e.seen},
@@ -145,13 +141,14 @@ Exit runExplain(const ExplainCommand& options) {
     const Result<Muted> muted = mutedOf(options.mute, *lit->scene);
     if (!muted)
         return failed(muted.error().message);
-    const std::size_t unit = options.light == kPixelLightNames[0] ? 0 : 1;
+    const PixelLight light =
+        options.light == "radiance" ? PixelLight::Radiance : PixelLight::Irradiance;
     const PixelQuestion question{.camera = *camera,
                                  .width = options.camera.width,
                                  .height = options.camera.height,
                                  .x = options.pick[0],
                                  .y = options.pick[1],
-                                 .light = PixelLight(unit),
+                                 .light = light,
                                  .samples = kFileSamples.perPixel,
                                  .nearRays = kFileSamples.nearRays,
                                  .gatherRays = kFileSamples.gatherRays};
@@ -162,12 +159,12 @@ Exit runExplain(const ExplainCommand& options) {
     const std::optional<glm::vec3> without =
         options.mute.empty() ? std::nullopt : std::optional(lightWithout(*lit, question, *muted));
     if (options.json) {
-        printJson(options, e, without, unit, ms);
+        printJson(options, e, without, light, ms);
         return Exit::Done;
     }
     fmt::print("{},{}: {} {:.4g} {:.4g} {:.4g} {}, {} bounces followed, {:.0f} ms\n",
                options.pick[0], options.pick[1], options.light, e.total.x, e.total.y, e.total.z,
-               kUnits[unit], e.tables.bounces, ms);
+               unitOf(light), e.tables.bounces, ms);
     if (without)
         fmt::print("Without {}: {:.4g} {:.4g} {:.4g}\n", fmt::join(options.mute, ", "), without->x,
                    without->y, without->z);

@@ -38,16 +38,6 @@ void explainAt(EditorState& state, glm::vec2 mouse) {
 
 namespace {
 
-const char* unitOf(PixelLight light) {
-    switch (light) {
-    case PixelLight::Radiance:
-        return "W m^-2 sr^-1";
-    case PixelLight::Irradiance:
-        return "W m^-2";
-    }
-    return "";
-}
-
 /// The object that a row names, or, where it names none, the nearest row above it.
 ObjectId objectOf(const ExplainedPixel& pixel, const std::vector<LightRow>& rows,
                   const LightRow& row) {

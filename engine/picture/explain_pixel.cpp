@@ -105,6 +105,16 @@ PixelParts readPixel(const ConvergedLight& lit, const PixelQuestion& question,
 
 } // namespace
 
+const char* unitOf(PixelLight light) {
+    switch (light) {
+    case PixelLight::Radiance:
+        return "W m^-2 sr^-1";
+    case PixelLight::Irradiance:
+        return "W m^-2";
+    }
+    return "";
+}
+
 PixelExplanation explainPixel(const ConvergedLight& lit, const PixelQuestion& question,
                               const ExplainOptions& options) {
     const Scene& scene = lit.trace->scene();

@@ -17,6 +17,9 @@ enum class PixelLight : std::uint8_t {
     Irradiance ///< that arrives at the surfaces that the pixel shows [W m^-2]
 };
 
+/// "W m^-2 sr^-1" or "W m^-2"
+const char* unitOf(PixelLight light);
+
 struct PixelQuestion {
     Camera camera;
     std::uint32_t width = 1280, height = 720; ///< size of the picture [pixels]
