@@ -9,6 +9,7 @@
 #include "editor_ui/jobs/editor_settings.h"
 #include "editor_ui/jobs/recent_files.h"
 #include "editor_ui/jobs/scene_changes.h"
+#include "editor_ui/panels/light_refusal.h"
 #include "engine/scene/find_object.h"
 #include "engine/techniques/technique_table.h"
 
@@ -373,22 +374,6 @@ void Session::takeExported() {
     log(LogLine::Level::Info, fmt::format("{} to {}", state.exporting.written, m_exportingTo));
 }
 
-/// Why the light cannot be exported or explained now; empty: it can.
-static std::string lightRefusal(const BakeStatus& bake) {
-    switch (bake.freshness) {
-    case BakeFreshness::NotUsed:
-    case BakeFreshness::UpToDate:
-        return bake.preview ? "The picture shows a preview; the full bake is running" : "";
-    case BakeFreshness::None:
-        return "Nothing is baked yet: bake first";
-    case BakeFreshness::Checking:
-        return "The bake is being checked";
-    case BakeFreshness::Needed:
-        return "The bake is older than the scene: bake first";
-    }
-    return "";
-}
-
 void Session::showExport() {
     ExportStatus& status = state.exporting;
     m_exportJob.report(status);
@@ -410,31 +395,6 @@ void Session::showExport() {
     const ExportScene in{state.document, *m_scene, *m_relit.trace,         *m_layout,
                          shape,          data,     m_options.exportFolders};
     status.forecast = format->forecast(in, state.exportDialog->settings);
-}
-
-void Session::showExplanation() {
-    ExplainState& explain = state.explain;
-    auto result = m_explainJob.takeResult();
-    if (result && m_explained->scene->assets == state.assets) { // else of another file
-        explain.error = *result ? "" : result->error().message;
-        explain.result = *result ? **result : nullptr;
-    }
-    explain.running = m_explainJob.busy();
-    explain.refusal = lightRefusal(state.bake);
-    // While something is being dragged, each frame would light the scene anew.
-    if (!explain.shown || !explain.pick || !explain.refusal.empty() || explain.running ||
-        state.gesture)
-        return;
-    ExplainOrder order{.scene = m_whole,
-                       .prepared = lightsBake() ? m_baked.prepared() : Prepared{},
-                       .question = explain.pick->question};
-    if (m_explained == order)
-        return;
-    m_explained = order;
-    for (const auto& [id, object] : state.document.objects)
-        if (std::holds_alternative<Light>(object))
-            order.lights.push_back(id);
-    explain.running = m_explainJob.start(std::move(order));
 }
 
 void Session::followDocument() {
@@ -558,6 +518,7 @@ void Session::update() {
     followReference();
     followOtherTechnique();
     showExplanation();
+    solveGoals();
     followLint(false);
     m_settings.keep(settingsOf(state));
 }

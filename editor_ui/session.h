@@ -90,6 +90,7 @@ private:
     void followReference();
     void followOtherTechnique();
     void showExplanation();
+    void solveGoals();
     void followLint(bool start);
     void followDocument();
     void followTime();
@@ -119,7 +120,6 @@ private:
     ComparedPicture m_beside;
     OtherTechnique m_other;
     ExplainJob m_explainJob;
-    std::optional<ExplainOrder> m_explained; ///< the newest order
     LintJob m_lintJob;
     double m_shownSeconds = 0; ///< time of animated textures in m_scene
     RecoveryJob m_recovery;

@@ -22,40 +22,42 @@ bool ExplainJob::start(ExplainOrder order) {
         return false;
     if (m_thread.joinable())
         m_thread.join(); // has finished
+    m_order = order;
     m_running = true;
     m_thread = std::thread([this, order = std::move(order)] {
         lowerThreadPriority();
-        Explained explained = explain(order);
-        {
-            const std::lock_guard lock(m_mutex);
-            m_result = std::move(explained);
-        }
+        carryOut(order);
         m_running = false;
         m_wake();
     });
     return true;
 }
 
-ExplainJob::Explained ExplainJob::explain(const ExplainOrder& order) {
-    const PixelQuestion& q = order.question;
+/// Lights the order's scene, unless that was lit last.
+Result<void> ExplainJob::light(const ExplainOrder& order) {
+    const PixelQuestion& q = order.goals.empty() ? order.question : order.goals.front().question;
     const Viewpoint view = viewpointOf(q.camera, {q.width, q.height});
-    if (!m_litFor || !m_litFor->sameLight(order) ||
-        (m_lit->lighting->isOfView() && m_litView != view)) {
-        m_litFor.reset();
-        m_lit.reset();
-        const Technique* technique = findTechnique(order.scene->technique.technique);
-        if (!technique)
-            return fail("the technique is unknown");
-        Progress progress;
-        progress.cancel = &m_cancel;
-        auto lit = convergeLight(order.scene, std::make_shared<const TraceScene>(*order.scene),
-                                 *technique, order.prepared, LitFor::Pictures, progress, &view);
-        if (!lit)
-            return tl::make_unexpected(lit.error());
-        m_lit = std::move(*lit);
-        m_litFor = order;
-        m_litView = view;
-    }
+    if (m_litFor && m_litFor->sameLight(order) &&
+        (!m_lit->lighting->isOfView() || m_litView == view))
+        return {};
+    m_litFor.reset();
+    m_lit.reset();
+    const Technique* technique = findTechnique(order.scene->technique.technique);
+    if (!technique)
+        return fail("the technique is unknown");
+    Progress progress;
+    progress.cancel = &m_cancel;
+    auto lit = convergeLight(order.scene, std::make_shared<const TraceScene>(*order.scene),
+                             *technique, order.prepared, LitFor::Pictures, progress, &view);
+    if (!lit)
+        return tl::make_unexpected(lit.error());
+    m_lit = std::move(*lit);
+    m_litFor = order;
+    m_litView = view;
+    return {};
+}
+
+ExplainJob::Explained ExplainJob::explain(const ExplainOrder& order) const {
     const auto start = std::chrono::steady_clock::now();
     auto explained = std::make_shared<ExplainedPixel>();
     explained->explanation = explainPixel(*m_lit, order.question);
@@ -68,14 +70,35 @@ ExplainJob::Explained ExplainJob::explain(const ExplainOrder& order) {
     return explained;
 }
 
+void ExplainJob::carryOut(const ExplainOrder& order) {
+    const Result<void> lit = light(order);
+    if (order.goals.empty()) {
+        Explained explained = lit ? explain(order) : tl::make_unexpected(lit.error());
+        const std::lock_guard lock(m_mutex);
+        m_result = std::move(explained);
+        return;
+    }
+    Result<SolvedStrengths> strengths =
+        lit ? solveStrengths(*m_lit, *findTechnique(order.scene->technique.technique), order.goals,
+                             order.free, {.cancel = &m_cancel})
+            : tl::make_unexpected(lit.error());
+    const std::lock_guard lock(m_mutex);
+    m_solved = {order.scene, order.lights, std::move(strengths)};
+}
+
 bool ExplainJob::busy() const {
     const std::lock_guard lock(m_mutex);
-    return m_running || m_result;
+    return m_running || m_result || m_solved;
 }
 
 std::optional<ExplainJob::Explained> ExplainJob::takeResult() {
     const std::lock_guard lock(m_mutex);
     return std::exchange(m_result, {});
+}
+
+std::optional<SolvedLights> ExplainJob::takeSolved() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_solved, {});
 }
 
 } // namespace limn

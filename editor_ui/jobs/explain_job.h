@@ -13,23 +13,34 @@
 
 namespace limn {
 
-/// What to explain.
+/// What to explain, or, where there are goals, to solve.
 struct ExplainOrder {
     std::shared_ptr<const Scene> scene;
     Prepared prepared; ///< by the scene's technique; null members: it needs none
     PixelQuestion question;
     std::vector<ObjectId> lights; ///< of the scene's lights
+    std::vector<StrengthGoal> goals;
+    std::vector<std::uint32_t> free; ///< the lights that may change for them
 
     /// Whether the order's scene is lit alike.
     bool sameLight(const ExplainOrder& o) const {
         return scene == o.scene && prepared.data == o.prepared.data;
     }
-    bool operator==(const ExplainOrder& o) const { return sameLight(o) && question == o.question; }
+    bool operator==(const ExplainOrder& o) const {
+        return sameLight(o) && question == o.question && goals == o.goals && free == o.free;
+    }
 };
 
-/// Explains pixels in the background, one at a time. It lights the scene itself, so that it waits
-/// for no other thread's light, and keeps that light for the next pixel of the same scene. No call
-/// waits for it except the destructor, which cancels it.
+/// Strengths that were found for goals.
+struct SolvedLights {
+    std::shared_ptr<const Scene> scene; ///< of the order
+    std::vector<ObjectId> lights;       ///< of the order
+    Result<SolvedStrengths> strengths;
+};
+
+/// Explains pixels and solves for strengths in the background, one at a time. It lights the scene
+/// itself, so that it waits for no other thread's light, and keeps that light for the next pixel of
+/// the same scene. No call waits for it except the destructor, which cancels it.
 class ExplainJob {
 public:
     using Explained = Result<std::shared_ptr<const ExplainedPixel>>;
@@ -40,25 +51,33 @@ public:
     ExplainJob(const ExplainJob&) = delete;
     ExplainJob& operator=(const ExplainJob&) = delete;
 
-    /// Returns false if an explanation is running.
+    /// Returns false if an order is being carried out.
     bool start(ExplainOrder order);
-    /// True while an explanation is running or its result has not been taken.
+    /// True while an order is being carried out or its result has not been taken.
     bool busy() const;
 
-    /// Returns the result of the last order once.
+    /// The newest order; std::nullopt: there was none.
+    const std::optional<ExplainOrder>& order() const { return m_order; }
+
+    /// Each returns the result of the last order of its kind once.
     std::optional<Explained> takeResult();
+    std::optional<SolvedLights> takeSolved();
 
 private:
-    Explained explain(const ExplainOrder& order);
+    Result<void> light(const ExplainOrder& order);
+    Explained explain(const ExplainOrder& order) const;
+    void carryOut(const ExplainOrder& order);
 
     std::function<void()> m_wake;
+    std::optional<ExplainOrder> m_order;
     std::thread m_thread;
     std::atomic<bool> m_cancel{false}, m_running{false};
     std::optional<ExplainOrder> m_litFor; ///< of the thread: the order that m_lit was made for
     std::optional<ConvergedLight> m_lit;  ///< the same
     Viewpoint m_litView;                  ///< the same: of that order's picture
-    mutable std::mutex m_mutex;           ///< guards m_result
+    mutable std::mutex m_mutex;           ///< guards what follows
     std::optional<Explained> m_result;
+    std::optional<SolvedLights> m_solved;
 };
 
 } // namespace limn

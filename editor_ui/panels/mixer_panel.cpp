@@ -4,6 +4,7 @@
 #include "editor_ui/editor_state.h"
 #include "editor_ui/panels/color_field.h"
 #include "editor_ui/panels/field.h"
+#include "editor_ui/panels/goals_panel.h"
 #include "editor_ui/panels/theme.h"
 
 #include <imgui.h>
@@ -136,14 +137,7 @@ void headings() {
     wrappedTooltip("Share of the light of the pixel that was clicked, over all bounces");
 }
 
-} // namespace
-
-void mixerPanel(EditorState& state) {
-    const std::vector<ObjectId> ids = mixedObjects(state);
-    if (ids.empty()) {
-        ImGui::TextDisabled("No lights yet. The menu Add has them");
-        return;
-    }
+void lightTable(EditorState& state, const std::vector<ObjectId>& ids) {
     constexpr ImGuiTableFlags kFlags =
         ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_BordersInnerV;
     if (!ImGui::BeginTable("lights", 6, kFlags))
@@ -155,6 +149,25 @@ void mixerPanel(EditorState& state) {
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
             row(state, ids[std::size_t(i)]);
     ImGui::EndTable();
+}
+
+} // namespace
+
+void mixerPanel(EditorState& state) {
+    const std::vector<ObjectId> ids = mixedObjects(state);
+    if (ids.empty()) {
+        ImGui::TextDisabled("No lights yet. The menu Add has them");
+        return;
+    }
+    const float width = ImGui::GetContentRegionAvail().x, font = ImGui::GetFontSize();
+    const float goals = std::clamp(0.36f * width, std::min(22 * font, 0.5f * width), 34 * font);
+    ImGui::BeginChild("mixed", {width - goals - font, 0});
+    lightTable(state, ids);
+    ImGui::EndChild();
+    ImGui::SameLine(0, font);
+    ImGui::BeginChild("goals", {goals, 0});
+    goalsPanel(state);
+    ImGui::EndChild();
 }
 
 } // namespace limn

@@ -4,6 +4,7 @@
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/panels/compare_overlay.h"
 #include "editor_ui/panels/explain_panel.h"
+#include "editor_ui/panels/goals_panel.h"
 #include "editor_ui/panels/icon.h"
 #include "editor_ui/panels/overlay_panel.h"
 #include "editor_ui/panels/picture_label.h"
@@ -337,6 +338,8 @@ void viewportPanel(EditorState& state) {
     ImGui::PushClipRect(origin, {origin.x + size.x, origin.y + size.y}, true);
     selectionBoxes(state);
     explainedPoint(state);
+    if (state.explain.shown)
+        goalMarks(state);
     if (state.view.showLights)
         lightIcons(state);
     const bool clickTaken = useGizmo(state, hovered && state.view.navigation == Navigation::None &&

@@ -164,6 +164,7 @@ EditorState crowdedEditor(const TemporaryFolder& folder) {
     state.explain.muted = {pixel.lights[0]};
     state.explain.result = std::make_shared<const ExplainedPixel>(std::move(pixel));
     state.explain.pick.emplace();
+    state.explain.goals.goals.assign(3, {.wanted = 1});
     return state;
 }
 

@@ -80,7 +80,7 @@ TEST(SoloSession, ChangesWhatIsShownAndNeitherTheDocumentNorItsHistory) {
 
 /// The table alone in a window.
 struct MixerTest : testing::Test {
-    HeadlessUi ui{600, 220};
+    HeadlessUi ui{960, 220};
     EditorState state = fullEditor();
 
     void frames() {
@@ -88,7 +88,7 @@ struct MixerTest : testing::Test {
             feedInput(ui.input);
             ImGui::NewFrame();
             ImGui::SetNextWindowPos({0, 0});
-            ImGui::SetNextWindowSize({600, 220});
+            ImGui::SetNextWindowSize({960, 220});
             ImGui::Begin("mixer");
             mixerPanel(state);
             ImGui::End();

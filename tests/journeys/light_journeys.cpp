@@ -200,5 +200,34 @@ TEST_F(LightJourney, MemoryIsHalvedAtTheLeastError) {
     EXPECT_LE(statistics()["bake_bytes"], whole->bytes / 2);
 }
 
+TEST_F(LightJourney, PlacesGetTheLightTheyAreToHave) {
+    startScreen();
+    if (!screen)
+        return;
+    startEditor(draftCornell());
+    waitForLight();
+    addAt("Point light", {0.35f, 0.6f});
+    waitForLight();
+    addAt("Point light", {0.65f, 0.4f});
+    waitForLight();
+    showTab("Lights");
+    ASSERT_TRUE(sees("Click a surface in the picture, then add a goal for its light"));
+    shot("1-no-goals");
+    for (const glm::vec2 share : {glm::vec2(0.4f, 0.85f), {0.6f, 0.85f}}) {
+        clickAt(picture().origin + share * picture().size);
+        settle(20);
+        click("Add goal");
+    }
+    rest();
+    settle(5);
+    shot("2-goals");
+    click("Solve");
+    rest();
+    ASSERT_TRUE(seesNoMore("Working", 60));
+    waitForLight();
+    settle(10);
+    shot("3-solved");
+}
+
 } // namespace
 } // namespace limn
