@@ -20,10 +20,11 @@ namespace web_format {
 namespace {
 
 constexpr std::array<std::string_view, 2> kSettings = {"detail", "maxSize"};
-constexpr std::array kPages = {"index.html",    "expand.js",      "fineness.js",  "handles.js",
-                               "lamp_light.js", "lamp_panel.js",  "lamps.js",     "lightmap.js",
-                               "live_light.js", "live_worker.js", "page.js",      "panel.js",
-                               "progress.js",   "shadow_maps.js", "transport.js", "view_scene.js"};
+constexpr std::array kPages = {"index.html",    "expand.js",     "fineness.js",    "handles.js",
+                               "kept_light.js", "lamp_light.js", "lamp_panel.js",  "lamps.js",
+                               "lightmap.js",   "live_light.js", "live_worker.js", "page.js",
+                               "panel.js",      "progress.js",   "shadow_maps.js", "transport.js",
+                               "view_scene.js"};
 
 /// A file of the npm package three, and its place in the page's folder.
 struct ThreeFile {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// node live.mjs OUT: exports the live page of Cornell, adds a lamp and drags it with real mouse events in headless Chromium, and
-// compares the bounced light before and after with `limn render`. Then it removes the lamp, hangs up forty, and opens the page on a
+// node live.mjs OUT: exports the live page of Cornell, adds a lamp, drags it with real mouse events in headless Chromium and changes its
+// colour, and compares the bounced light each time with `limn render`. Then it removes the lamp, hangs up forty, and opens the page on a
 // phone. Needs the runtime in build/web (.ci/wasm). Pictures stay in OUT/live.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -112,6 +112,20 @@ try {
     const [nowX, nowY] = await at();
     errors.push(await compared('dragged'));
     await page.screenshot({ path: path.join(folder, 'dragged.png') });
+    // The light of each source alone: another strength and colour then need no bounce.
+    await page.waitForFunction('limn.light.kept[1] > 0 && limn.light.kept[0] === limn.light.kept[1]', { timeout: 240000 });
+    await page.evaluate(() => {
+        const lamp = limn.lamps.at(-1);
+        for (const l of lamp.lights) { l.strength *= 3; l.color = [0.4, 0.7, 1]; }
+        lamp.update();
+        limn.sendLights();
+    });
+    await settled();
+    const mixed = await page.evaluate('limn.light.latest');
+    errors.push(await compared('mixed'));
+    await page.screenshot({ path: path.join(folder, 'mixed.png') });
+    if (!mixed.mixed || mixed.bounces !== 0) problems.push('another strength and colour of a lamp took bounces');
+    console.log(`another strength and colour: ${mixed.ms.toFixed(2)} ms for all bounces`);
     const state = await page.evaluate('limn.state'), openMs = await page.evaluate('limn.light.openMs');
     console.log(`opened in ${openMs.toFixed(0)} ms, ${state.lightMs.toFixed(1)} ms per bounce, ${(drawn / seconds).toFixed(1)} frames/s while dragged, ${(bytes / 1e6).toFixed(1)} MB`);
     if (Math.hypot(nowX - (x - 5 * kSteps), nowY - (y - 3 * kSteps)) > 3) problems.push(`the lamp is at ${nowX}, ${nowY}`);

@@ -3,12 +3,13 @@
 
 /**
  * Begins to load the transport. `heard` has progress(share), lit(result), whose buffer goes back by done(), and failed(text).
- * Changes that are sent before the transport is there are made when it is.
+ * Changes that are sent before the transport is there are made when it is. `kept` of the result is how many sources' light is kept, and of
+ * how many.
  */
 export function startLiveLight(options, heard) {
   const worker = new Worker(new URL('./live_worker.js', import.meta.url), { type: 'module' });
   const light = {
-    serial: 0, live: false, openMs: 0, latest: null,
+    serial: 0, live: false, openMs: 0, latest: null, kept: [0, 0],
     /** `state`: lights, sky, emission and gridPoints, as live_worker.js takes them. */
     send(state) { worker.postMessage({ state: { ...state, serial: ++light.serial } }); },
     done(buffer) { worker.postMessage({ buffer }, [buffer]); },
@@ -23,6 +24,7 @@ export function startLiveLight(options, heard) {
       light.latest = data.lit;
       heard.lit(data.lit);
     }
+    if (data.kept) light.kept = data.kept;
     if (data.error) heard.failed(data.error);
   };
   worker.onerror = (event) => heard.failed(event.message ?? 'The thread of bounces has ended');

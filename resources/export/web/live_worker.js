@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The bounces of light, in a thread of their own: the page goes on drawing while they run. Takes { open } once, then the page's
-// { state }s, of which the latest counts, and buffers that the page is done with. Sends { progress }, { ready }, { lit } and { error }.
+// { state }s, of which the latest counts, and buffers that the page is done with. Sends { progress }, { ready }, { lit }, { kept } and
+// { error }. While nothing else is to be done, it finds the light of each source alone: what changes colours and strengths then needs no
+// bounce.
 import { expanded } from './expand.js';
+import { keptLight } from './kept_light.js';
 import { download } from './progress.js';
 import { openTransport } from './transport.js';
 
@@ -10,7 +13,7 @@ const kFirstMs = 3000; // until the first lightmap, which shows converged light 
 const kMaxBounces = 1000; // after a change of light
 const kTolerance = 1e-3;
 
-let transport = null, state = null, isNew = false, scale = 1, wake = () => {}, buffers = [];
+let transport = null, kept = null, state = null, isNew = false, scale = 1, wake = () => {}, buffers = [];
 const shown = { sky: '', emission: new Map() };
 
 /** Lets the messages in that have arrived. */
@@ -31,35 +34,51 @@ function takeState() {
   }
 }
 
-function send(bounces, ms, ended, early) {
-  const map = transport.lightmap(scale), buffer = buffers.pop() ?? new ArrayBuffer(map.byteLength);
+/** Sends the light of `scene`; `rest` goes with it. */
+function send(scene, rest) {
+  const map = scene.lightmap(scale), buffer = buffers.pop() ?? new ArrayBuffer(map.byteLength);
   new Uint16Array(buffer).set(map);
-  const harmonics = state.gridPoints.map((point) => transport.gridHarmonics(point));
-  postMessage({ lit: { serial: state.serial, buffer, harmonics, bounces, ms, ended, early, missing: transport.missing() } }, [buffer]);
+  const harmonics = state.gridPoints.map((point) => scene.gridHarmonics(point));
+  postMessage({ lit: { serial: state.serial, buffer, harmonics, ...rest } }, [buffer]);
+}
+
+/** Shows the latest state by kept light, if that is there. */
+function mixed() {
+  const begin = performance.now();
+  kept.take(state);
+  if (!kept.mix()) return false;
+  const ms = performance.now() - begin;
+  send(kept.scene, { bounces: 0, ms, ended: true, early: false, missing: 0, mixed: true });
+  return true;
 }
 
 async function relight() {
-  let bounces = 0, ended = false, first = performance.now();
+  let bounces = 0, ended = false, shown = false, first = performance.now();
   for (;;) {
     if (isNew) {
-      takeState();
+      shown = mixed();
+      if (shown) first = 0;
+      takeState(); // bounces go on behind kept light, for what it cannot show
       bounces = 0;
       ended = false;
     }
     if (ended) {
-      await message();
+      const [before] = kept.progress();
+      if (!kept.find()) await message();
+      else await breath();
+      if (kept.progress()[0] !== before) postMessage({ kept: kept.progress() });
       continue;
     }
     const begin = performance.now(), before = bounces;
     do bounces += transport.step(); while (!transport.converged() && performance.now() - begin < kBounceMs);
     const ms = (performance.now() - begin) / Math.max(bounces - before, 1), converged = transport.converged();
     ended = converged || bounces >= kMaxBounces;
-    if (ended || performance.now() - first > kFirstMs || first === 0) {
+    if (!shown && (ended || performance.now() - first > kFirstMs || first === 0)) {
       first = 0;
-      send(bounces, ms, ended, ended && !converged);
+      send(transport, { bounces, ms, ended, early: ended && !converged, missing: transport.missing(), mixed: false });
     }
     await breath();
-    while (buffers.length === 0 && !isNew && first === 0) await message(); // the page has not shown the latest one yet
+    while (!shown && buffers.length === 0 && !isNew && first === 0) await message(); // the page has not shown the latest one yet
   }
 }
 
@@ -68,6 +87,7 @@ async function open({ wasm, file, bytes, mapScale, maxLights }) {
   const [program, packed] = await Promise.all([download(wasm), download(file, (arrived) => postMessage({ progress: arrived / bytes }))]);
   const begin = performance.now();
   transport = await openTransport(program, await expanded(packed), maxLights, kTolerance);
+  kept = keptLight(transport);
   const { width, height } = transport.counts;
   buffers = [0, 1].map(() => new ArrayBuffer(8 * width * height));
   postMessage({ ready: { openMs: performance.now() - begin } });

@@ -55,8 +55,8 @@ async function start() {
   const mean = description.meanIrradiance, base = mean > 0 ? 0.18 * 2 * Math.PI / mean : 1; // the mean becomes a middle grey, with albedo 1/2
 
   const fineness = new Fineness(renderer.getContext());
-  const state = { exposureEv: 0, bounces: 0, allBounces: 0, lightMs: 0, lit: 0, frames: 0, framesPerSecond: 0, live: false };
-  const sky = { color: [1, 1, 1], factor: 1 }, emission = new Map();
+  const state = { exposureEv: 0, bounces: 0, allBounces: 0, lightMs: 0, mixed: false, lit: 0, frames: 0, framesPerSecond: 0, live: false };
+  const sky = { color: [1, 1, 1], factor: 1 }, emission = new Map(emissive(lit).map(({ number }) => [number, [1, 1, 1]]));
   let dirty = true, lampsChanged = true, failure = '', shown = first, fps = { frames: 0, since: performance.now() };
   const draw = () => { dirty = true; };
 
@@ -70,7 +70,7 @@ async function start() {
     },
     lit(result) {
       if (!state.live) tell('');
-      Object.assign(state, { live: true, lightMs: result.ms, allBounces: state.allBounces + result.bounces - (result.serial === state.serial ? state.bounces : 0),
+      Object.assign(state, { live: true, lightMs: result.ms, mixed: result.mixed, allBounces: state.allBounces + result.bounces - (result.serial === state.serial ? state.bounces : 0),
         bounces: result.bounces, serial: result.serial, lit: state.lit + 1 });
       result.harmonics.forEach((list, k) => lit.grid[k].show(list));
       if (live && result.serial > 1) { // until something changes, the first map is as good or better
@@ -172,7 +172,7 @@ async function start() {
   resize();
 
   const sentence = () => {
-    const { latest } = light, speed = `${short(state.lightMs)} ms per bounce` +
+    const { latest } = light, speed = `${short(state.lightMs)} ms ${state.mixed ? 'for all bounces' : 'per bounce'}` +
       (state.framesPerSecond > 0 ? ` · ${short(state.framesPerSecond)} frames/s` : '');
     return latest?.early ? `Stopped after ${latest.bounces} bounces: ${(100 * latest.missing).toFixed(1)} % of light may be missing` : speed;
   };

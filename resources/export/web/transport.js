@@ -6,6 +6,7 @@ import { unpackedBytes, unpackTransport } from './expand.js';
 
 export const LightKind = { directional: 0, point: 1, spot: 2, rectangle: 3 };
 export const kMaxLights = 256; // of a page, or as many as its scene has
+export const kMaxKept = 64; // slots of kept light
 const kLightWords = 20, kLightOff = 1;
 
 /** The lights in a section LGHT, which lies in `buffer` from `offset` on, a multiple of 4. */
@@ -44,24 +45,27 @@ export async function openTransport(wasm, packed, maxLights, tolerance) {
   const size = unpackedBytes(packed), base = (allocate(size + 16) + 15) & ~15;
   unpackTransport(packed, bytesAt(base, size).fill(0));
   const error = allocate(512), options = allocate(28);
-  wordsAt(options, 7).set([0, maxLights, 0, 0, 0, 0, 0]);
-  const scene = rt.limnrt_open(base, size, options, error, 512);
-  if (!scene) throw new Error(textAt(error));
-  rt.limnrt_set_tolerance(scene, tolerance);
+  const openScene = (maxKept) => {
+    wordsAt(options, 7).set([0, maxLights, 0, maxKept, 0, 0, 0]);
+    const scene = rt.limnrt_open(base, size, options, error, 512);
+    if (!scene) throw new Error(textAt(error));
+    rt.limnrt_set_tolerance(scene, tolerance);
+    return scene;
+  };
 
-  const countsAt = allocate(104);
-  rt.limnrt_get_counts(scene, countsAt);
+  const first = openScene(0), countsAt = allocate(104);
+  rt.limnrt_get_counts(first, countsAt);
   const names = ['surfels', 'skyCells', 'nodes', 'caches', 'lightmapCaches', 'materials', 'lights', 'maxLights', 'triangles', 'bands',
     'chromaBands', 'width', 'height'];
   const counts = Object.fromEntries(names.map((name, k) => [name, wordsAt(countsAt, 16)[k]]));
 
   const lightsAt = allocate(4 * kLightWords * counts.maxLights), rgbAt = allocate(12), pointAt = allocate(24), shAt = allocate(16 * 64);
   const skyAt = allocate(Math.max(12 * counts.skyCells, 4));
-  const mapAt = allocate(16 * counts.width * counts.height);
-  const fileSky = counts.skyCells ? floatsAt(rt.limnrt_file_sky(scene), 3 * counts.skyCells).slice() : new Float32Array();
+  const mapAt = allocate(16 * counts.width * counts.height), mixAt = allocate(12 * kMaxKept);
+  const fileSky = counts.skyCells ? floatsAt(rt.limnrt_file_sky(first), 3 * counts.skyCells).slice() : new Float32Array();
   const check = (ok, what) => { if (!ok) throw new Error(`The runtime refuses ${what}`); };
 
-  return {
+  const methods = (scene) => ({
     counts, fileSky,
 
     setLights(lights) {
@@ -93,6 +97,16 @@ export async function openTransport(wasm, packed, maxLights, tolerance) {
     converged() { return rt.limnrt_converged(scene) === 1; },
     /** Share of all light that may still be missing, [0, 1]. */
     missing() { return rt.limnrt_missing(scene); },
+    /** Forgets bounced light. */
+    reset() { rt.limnrt_reset(scene); },
+
+    /** Keeps the present light in a slot below the maxKept it was opened with. */
+    keep(slot) { check(rt.limnrt_keep(scene, slot), 'to keep light'); },
+    /** Until the next bounce, the light is that of slots 0, 1, ... times their factors, 3 numbers each. */
+    mix(rgb) {
+      floatsAt(mixAt, rgb.length).set(rgb);
+      check(rt.limnrt_mix(scene, mixAt, rgb.length / 3), 'to mix light');
+    },
 
     /** Irradiance [W m^-2] times `scale`, RGBA in half floats, the upper row first: a view that the next call makes invalid. */
     lightmap(scale) {
@@ -108,5 +122,9 @@ export async function openTransport(wasm, packed, maxLights, tolerance) {
       for (let i = 0; i < 9; ++i) rgb.push([rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]]);
       return rgb;
     },
-  };
+
+    /** The same scene once more, with light of its own, which keeps light in `maxKept` slots, kMaxKept at most. */
+    again(maxKept) { return methods(openScene(maxKept)); },
+  });
+  return methods(first);
 }
