@@ -15,8 +15,10 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 
@@ -26,6 +28,8 @@ namespace {
 
 constexpr float kHeight = 0.25f;   ///< above the surface at which segments run [spacings]
 constexpr float kToCorner = 0.45f; ///< from a cell's middle, along its sides [cells]
+
+constexpr std::uint32_t kBehind = ~0U, kNone = ~0U;
 
 /// A cell on one side of an instance that is to be given to a surfel.
 struct CellToOwn {
@@ -59,7 +63,11 @@ struct Patches {
     RaisedPoint raisedPoint(const MeshPoint& point, bool back, float height) const;
     void raiseCells(std::span<CellToOwn> cells) const;
     bool onSameSide(const RaisedPoint& cell, glm::vec3 normal, std::uint32_t surfel) const;
-    bool findOwners(std::span<CellToOwn> cells, std::span<std::uint32_t> owner) const;
+    std::uint32_t entryOf(const CellToOwn& cell) const {
+        return cell.cell.index + (cell.back ? owners.cells() : 0);
+    }
+    void findBeside(std::span<CellToOwn> cells, std::span<std::uint32_t> owner) const;
+    bool askOthers(std::span<const CellToOwn> cells, std::span<std::uint32_t> owner) const;
     std::uint32_t ownerAt(const MeshPoint& point, const RaisedPoint& from,
                           std::uint32_t nearestOwner, bool back) const;
     std::uint32_t ownerOfPart(const MeshPoint& point, std::uint32_t ownerOfCell, bool back) const;
@@ -134,28 +142,28 @@ void Patches::raiseCells(std::span<CellToOwn> cells) const {
             cell->from = raisedPoint(cell->middle(), cell->back, heightOf(cell->surfel));
 }
 
-/// Writes the surfels that own `cells` to `owner`, the entries of partedOwners(). Most cells lie on
-/// the side of the surfel nearest to them: rays that are traced together tell which do, and only
-/// the others are asked about one by one. Returns whether any belongs to another surfel.
-bool Patches::findOwners(std::span<CellToOwn> cells, std::span<std::uint32_t> owner) const {
+/// Writes the surfels nearest to `cells` to `owner`, the entries of partedOwners(), where they lie
+/// on the same side of all walls, as most do, and kBehind elsewhere. Rays are traced together.
+void Patches::findBeside(std::span<CellToOwn> cells, std::span<std::uint32_t> owner) const {
     raiseCells(cells);
-    const auto entry = [&](const CellToOwn& cell) -> std::uint32_t& {
-        return owner[cell.cell.index + (cell.back ? owners.cells() : 0)];
-    };
-    constexpr std::uint32_t kBehind = ~0U;
     RaysTogether<CellToOwn*> along(trace, TraceMask::Static);
-    const auto isBeside = [&](CellToOwn* cell) { entry(*cell) = cell->surfel; };
+    const auto isBeside = [&](CellToOwn* cell) { owner[entryOf(*cell)] = cell->surfel; };
     for (CellToOwn& cell : cells) {
-        entry(cell) = kBehind;
+        owner[entryOf(cell)] = kBehind;
         along.add(rayBetween(cell.from.position, raised[cell.surfel]), &cell, isBeside);
     }
     along.flush(isBeside);
     rays += along.traced();
+}
+
+/// Finds owners of the cells that are kBehind, one by one. Returns whether any is not the nearest
+/// surfel.
+bool Patches::askOthers(std::span<const CellToOwn> cells, std::span<std::uint32_t> owner) const {
     bool differs = false;
     for (const CellToOwn& cell : cells)
-        if (entry(cell) == kBehind) {
-            entry(cell) = ownerAt(cell.middle(), cell.from, cell.surfel, cell.back);
-            differs |= entry(cell) != cell.surfel;
+        if (std::uint32_t& surfel = owner[entryOf(cell)]; surfel == kBehind) {
+            surfel = ownerAt(cell.middle(), cell.from, cell.surfel, cell.back);
+            differs |= surfel != cell.surfel;
         }
     return differs;
 }
@@ -192,35 +200,144 @@ std::uint32_t Patches::ownerOfPart(const MeshPoint& point, std::uint32_t ownerOf
     return ownerAt(point, from, ownerOfCell, back);
 }
 
-/// Owners of all cells, fronts first; empty where no wall splits any patch.
-std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& progress) {
-    constexpr std::size_t kTogether = 1024;
+/// A cell of a triangle that is smaller than a cell.
+struct SmallCell {
+    glm::ivec3 cube; ///< of a cell's size, from the surfel's place on
+    std::uint32_t cell;
+
+    bool isBefore(const SmallCell& c) const {
+        return std::tuple(cube.x, cube.y, cube.z, cell) <
+               std::tuple(c.cube.x, c.cube.y, c.cube.z, c.cell);
+    }
+};
+
+/// The small cells of a mesh. Those of a front's surfel s are [begin[s], begin[s + 1]), cube after
+/// cube. Both are empty where a mesh has few triangles for its surfels.
+struct SmallCells {
+    std::vector<std::uint32_t> begin;
+    std::vector<SmallCell> cells;
+};
+
+SmallCells findSmallCells(const Patches& patches) {
+    constexpr std::uint32_t kFew = 16;   // triangles for each surfel
+    constexpr float kFarthest = 1 << 20; // cubes
+    const SurfelOwners& owners = patches.owners;
     const Scene& scene = patches.trace.scene();
     const Instance& instance = scene.instances[patches.instance];
     const Mesh& mesh = scene.meshOf(instance);
-    const SurfelOwners& owners = patches.owners;
-    const std::uint32_t sides = isTwoSided(scene, instance) ? 2 : 1,
-                        backs = patches.surfels().frontCount;
-    std::vector<std::uint32_t> result(std::size_t(owners.cells()) * sides);
-    // Cells that no place lies in stay with the first surfel of their side.
-    std::fill(result.begin() + owners.cells(), result.end(), backs);
-    std::atomic<bool> differs = false;
-    owners.forTriangles(mesh, progress, [&](std::uint32_t begin, std::uint32_t end) {
-        std::vector<CellToOwn> cells;
-        const auto finish = [&] {
-            if (patches.findOwners(cells, result))
-                differs = true;
-            cells.clear();
-        };
-        for (std::uint32_t side = 0; side < sides; ++side)
-            for (std::uint32_t t = begin; t < end; ++t)
-                owners.forCellsOf(t, [&](const SurfelOwners::Cell& cell) {
-                    cells.push_back({cell, t, side * backs + owners.front(cell.index), side == 1});
-                    if (cells.size() == kTogether)
-                        finish();
-                });
-        finish();
+    SmallCells result;
+    if (mesh.triangleCount() / kFew < owners.frontCount())
+        return result;
+    const auto forSmall = [&](const auto& visit) {
+        for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t)
+            if (owners.isOneCell(t))
+                owners.forCellsOf(t, [&](const SurfelOwners::Cell& cell) { visit(t, cell); });
+    };
+    std::vector<std::uint32_t>& begin = result.begin;
+    begin.resize(owners.frontCount() + 1);
+    forSmall([&](std::uint32_t, const auto& cell) { ++begin[owners.front(cell.index) + 1]; });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    result.cells.resize(begin.back());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    const Surfels& surfels = patches.set.surfels;
+    const std::uint32_t first = patches.set.instanceBegin[patches.instance];
+    forSmall([&](std::uint32_t t, const SurfelOwners::Cell& cell) {
+        const std::uint32_t s = owners.front(cell.index);
+        const glm::vec3 place =
+            instance.toWorld * glm::vec4(trianglePoint(mesh, t, cell.middle()), 1);
+        const float size = std::sqrt(surfels.area[first + s]) / SurfelOwners::kCellsPerSpacing;
+        const glm::vec3 cube = glm::floor((place - surfels.position[first + s]) / size);
+        result.cells[next[s]++] = {glm::ivec3(glm::clamp(cube, -kFarthest, kFarthest)), cell.index};
     });
+    parallelRanges(owners.frontCount(), 64, [&](std::size_t from, std::size_t to) {
+        const auto all = result.cells.begin();
+        for (std::size_t s = from; s < to; ++s)
+            std::sort(all + begin[s], all + begin[s + 1],
+                      [](const SmallCell& a, const SmallCell& b) { return a.isBefore(b); });
+    });
+    return result;
+}
+
+/// Writes the owners of the cells of sides for which `wanted(entry)` is true, by index into
+/// `owner`; those that are not beside their nearest surfel stay kBehind unless `ask`. Returns
+/// whether any other one is not the nearest surfel.
+template <class Wanted>
+bool ownCells(const Patches& patches, const Progress& progress, bool ask, const Wanted& wanted,
+              std::vector<std::uint32_t>& owner) {
+    constexpr std::size_t kTogether = 1024;
+    const Scene& scene = patches.trace.scene();
+    const SurfelOwners& owners = patches.owners;
+    const std::uint32_t backs = patches.surfels().frontCount,
+                        sides = std::uint32_t(owner.size() / owners.cells());
+    std::atomic<bool> differs = false;
+    owners.forTriangles(scene.meshOf(scene.instances[patches.instance]), progress,
+                        [&](std::uint32_t begin, std::uint32_t end) {
+                            std::vector<CellToOwn> cells;
+                            const auto finish = [&] {
+                                patches.findBeside(cells, owner);
+                                if (ask && patches.askOthers(cells, owner))
+                                    differs = true;
+                                cells.clear();
+                            };
+                            for (std::uint32_t side = 0; side < sides; ++side)
+                                for (std::uint32_t t = begin; t < end; ++t)
+                                    owners.forCellsOf(t, [&](const SurfelOwners::Cell& cell) {
+                                        if (!wanted(cell.index + side * owners.cells()))
+                                            return;
+                                        cells.push_back({cell, t,
+                                                         side * backs + owners.front(cell.index),
+                                                         side == 1});
+                                        if (cells.size() == kTogether)
+                                            finish();
+                                    });
+                            finish();
+                        });
+    return differs;
+}
+
+/// By entry of `owner`, the one that is asked for it, of those that are kBehind; kNone for others.
+/// Small cells of one cube and side ask once.
+std::vector<std::uint32_t> askedFor(const SmallCells& small, std::uint32_t cells,
+                                    const std::vector<std::uint32_t>& owner) {
+    std::vector<std::uint32_t> asked(owner.size(), kNone);
+    for (std::uint32_t k = 0; k < owner.size(); ++k)
+        if (owner[k] == kBehind)
+            asked[k] = k;
+    for (std::uint32_t side = 0; side < owner.size() / cells; ++side)
+        for (std::size_t s = 0; s + 1 < small.begin.size(); ++s) {
+            const SmallCell* before = nullptr; // the latest of its cube that is behind a wall
+            for (std::uint32_t k = small.begin[s]; k < small.begin[s + 1]; ++k) {
+                const SmallCell& c = small.cells[k];
+                const std::uint32_t entry = c.cell + side * cells;
+                if (owner[entry] != kBehind)
+                    continue;
+                if (before && before->cube == c.cube)
+                    asked[entry] = asked[before->cell + side * cells];
+                before = &c;
+            }
+        }
+    return asked;
+}
+
+/// Owners of all cells, fronts first; empty where no wall splits any patch.
+std::vector<std::uint32_t> partedOwners(const Patches& patches, const Progress& progress) {
+    const Scene& scene = patches.trace.scene();
+    const std::uint32_t sides = isTwoSided(scene, scene.instances[patches.instance]) ? 2 : 1,
+                        cells = patches.owners.cells();
+    std::vector<std::uint32_t> result(std::size_t(cells) * sides);
+    // Cells that no place lies in stay with the first surfel of their side.
+    std::fill(result.begin() + cells, result.end(), patches.surfels().frontCount);
+    const SmallCells small = findSmallCells(patches);
+    const auto all = [](std::uint32_t) { return true; };
+    bool differs = ownCells(patches, progress, small.cells.empty(), all, result);
+    if (!small.cells.empty()) {
+        const std::vector<std::uint32_t> asked = askedFor(small, cells, result);
+        const auto asks = [&](std::uint32_t entry) { return asked[entry] == entry; };
+        differs = ownCells(patches, progress, true, asks, result);
+        for (std::uint32_t k = 0; k < asked.size(); ++k)
+            if (asked[k] != kNone)
+                result[k] = result[asked[k]];
+    }
     return differs ? std::move(result) : std::vector<std::uint32_t>();
 }
 
@@ -302,6 +419,8 @@ std::vector<std::uint32_t> splitCells(const Patches& patches, const Progress& pr
     owners.forTriangles(scene.meshOf(instance), progress,
                         [&](std::uint32_t begin, std::uint32_t end) {
                             for (std::uint32_t t = begin; t < end; ++t) {
+                                if (owners.isOneCell(t))
+                                    continue;
                                 PairsOnSameSide pairs;
                                 owners.forCellsOf(t, [&](const SurfelOwners::Cell& cell) {
                                     for (const bool back : {false, true})

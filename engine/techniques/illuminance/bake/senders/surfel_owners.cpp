@@ -78,10 +78,7 @@ static std::uint32_t oppositeLongestSide(const Mesh& mesh, std::uint32_t triangl
 }
 
 void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
-    // Cells of a quarter of the surfels' spacing: the border between two owners is off by an eighth
-    // of it at most. With thirds, 48.1 % of a floor's light points lay under a plate that covers
-    // 50 % of it; with quarters 49.8 %.
-    constexpr float kCellsPerSpacing = 4, kMaxCells = 1024;
+    constexpr float kMaxCells = 1024;
     const MeshDensity& density = surfels.density;
     const double weight = summedWeight(mesh, density) / surfels.frontCount; // of a surfel
     m_density = {density.level, density.begin, {}};

@@ -36,6 +36,10 @@ public:
         return m_owner[cellAt(triangle, u, v).cell] + (back ? m_frontCount : 0);
     }
 
+    /// Along the spacing of surfels: the border between two owners is off by an eighth of it at
+    /// most. With thirds, 48.1 % of a floor's light points lay under a plate that covers 50 % of
+    /// it; with quarters 49.8 %.
+    static constexpr float kCellsPerSpacing = 4;
     static constexpr std::uint32_t kAcross = 4, kParts = kAcross * kAcross; ///< of a cell
     struct Place {
         std::uint32_t cell, part; ///< < cells(), < kParts
@@ -90,6 +94,13 @@ public:
                 for (std::uint32_t j = 0; j <= last(block, whole, i); ++j)
                     visit(cellOf(block, densityCell, side, i, j));
         });
+    }
+    /// Whether a triangle is smaller than a cell, so that it has one of its own.
+    bool isOneCell(std::uint32_t triangle) const {
+        if (m_density.side(triangle) > 1)
+            return false;
+        const Block& block = m_blocks[blockOf(triangle, glm::uvec2(0))];
+        return block.across == 1 && block.up == 1;
     }
     std::uint32_t frontCount() const { return m_frontCount; }
     /// The surfel on the front of a cell.

@@ -70,6 +70,44 @@ TEST(PatchSides, PatchesEndAtWalls) {
     }
 }
 
+/// The same scene with each triangle of its first mesh divided into four, `times` times.
+Scene divided(const Scene& scene, int times) {
+    auto assets = std::make_shared<Assets>(*scene.assets);
+    Mesh& mesh = assets->meshes[0];
+    for (int k = 0; k < times; ++k) {
+        Mesh fine;
+        for (std::uint32_t t = 0; t < mesh.triangleCount(); ++t) {
+            const auto begin = std::uint32_t(fine.positions.size());
+            for (const glm::vec2 uv : {glm::vec2(0), glm::vec2(1, 0), glm::vec2(0, 1),
+                                       glm::vec2(0.5f, 0), glm::vec2(0.5f), glm::vec2(0, 0.5f)}) {
+                fine.positions.push_back(trianglePoint(mesh, t, uv));
+                fine.normals.push_back(triangleNormal(mesh, t));
+            }
+            for (const std::uint32_t corner : {0U, 3U, 5U, 3U, 1U, 4U, 5U, 4U, 2U, 3U, 4U, 5U})
+                fine.indices.push_back(begin + corner);
+        }
+        mesh = fine;
+    }
+    Scene result = scene;
+    result.assets = std::move(assets);
+    return result;
+}
+
+// Triangles smaller than cells, of which many share the answer to which surfel lies on their side.
+TEST(PatchSides, PatchesOfSmallTrianglesEndAtWalls) {
+    for (const float wall : {0.f, 0.01f, 0.1f}) {
+        const Scene scene = divided(partedHall(wall, 500, kWall), 6);
+        ASSERT_GT(scene.assets->meshes[0].triangleCount(), 16 * 500U);
+        const TraceScene trace(scene);
+        const SurfelSet set = placeSurfels(scene, 500);
+        OwnerTables owners(scene, set);
+        EXPECT_TRUE(owners.tableOf(0).isOneCell(0));
+        EXPECT_GT(beyondWall(scene, set, owners, wall), 0) << "nothing to cut";
+        owners.part(findPatchSides(trace, set, owners, {}));
+        EXPECT_EQ(beyondWall(scene, set, owners, wall), 0) << wall;
+    }
+}
+
 /// The same with whole cells: all of a cell belongs to the owner of a part in its middle.
 PatchSides withWholeCells(PatchSides sides) {
     for (std::size_t i = 0; i < sides.owner.size(); ++i)
