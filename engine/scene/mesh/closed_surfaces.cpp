@@ -35,34 +35,36 @@ struct WeldedTriangles {
 };
 
 WeldedTriangles weld(Meshes meshes) {
-    struct Corner {
+    struct Vertex {
         glm::vec3 p;
-        std::size_t index;
+        std::size_t index; // counted over all meshes
     };
-    std::vector<Corner> corners;
-    std::vector<ShellTriangle> all;
-    for (std::uint32_t m = 0; m < meshes.size(); ++m)
-        for (std::uint32_t t = 0; t < meshes[m]->triangleCount(); ++t) {
-            for (const std::uint32_t vertex : meshes[m]->triangle(t))
-                corners.push_back({meshes[m]->positions[vertex], corners.size()});
-            all.push_back({m, t});
-        }
-    std::ranges::sort(corners, [](const Corner& a, const Corner& b) {
+    std::vector<Vertex> vertices;
+    std::vector<std::size_t> first; // vertex of each mesh
+    for (const Mesh* mesh : meshes) {
+        first.push_back(vertices.size());
+        for (const glm::vec3& p : mesh->positions)
+            vertices.push_back({p, vertices.size()});
+    }
+    std::ranges::sort(vertices, [](const Vertex& a, const Vertex& b) {
         return std::tie(a.p.x, a.p.y, a.p.z) < std::tie(b.p.x, b.p.y, b.p.z);
     });
-    std::vector<std::uint32_t> number(corners.size());
-    for (std::size_t i = 0, points = 0; i < corners.size(); ++i) {
-        points += i > 0 && corners[i].p != corners[i - 1].p ? 1 : 0;
-        number[corners[i].index] = std::uint32_t(points);
+    std::vector<std::uint32_t> number(vertices.size());
+    for (std::size_t i = 0, points = 0; i < vertices.size(); ++i) {
+        points += i > 0 && vertices[i].p != vertices[i - 1].p ? 1 : 0;
+        number[vertices[i].index] = std::uint32_t(points);
     }
     WeldedTriangles welded;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const std::uint32_t a = number[3 * i], b = number[3 * i + 1], c = number[3 * i + 2];
-        if (a == b || b == c || c == a)
-            continue;
-        welded.triangle.push_back(all[i]);
-        welded.corner.push_back({a, b, c});
-    }
+    for (std::uint32_t m = 0; m < meshes.size(); ++m)
+        for (std::uint32_t t = 0; t < meshes[m]->triangleCount(); ++t) {
+            std::array<std::uint32_t, 3> corner = meshes[m]->triangle(t);
+            for (std::uint32_t& vertex : corner)
+                vertex = number[first[m] + vertex];
+            if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0])
+                continue;
+            welded.triangle.push_back({m, t});
+            welded.corner.push_back(corner);
+        }
     return welded;
 }
 
@@ -221,6 +223,46 @@ glm::dvec3 middleOf(const Corners& c) {
     return (c[0] + c[1] + c[2]) / 3.0;
 }
 
+/// Half of the solid angle of a triangle seen from the origin, positive from behind its front. Van
+/// Oosterom, Strackee. The Solid Angle of a Plane Triangle. 1983
+double halfSolidAngle(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
+    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+    const double volume = glm::dot(a, glm::cross(b, c));
+    const double size =
+        la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
+    constexpr double kSmall = 0.1; // up to which four terms of the series are right to 1e-10
+    if (!(std::abs(volume) < kSmall * size))
+        return volume != 0 ? std::atan2(volume, size) : 0;
+    const double t = volume / size, t2 = t * t;
+    return t * (1 - t2 * (1 / 3. - t2 * (1 / 5. - t2 / 7)));
+}
+
+/// Winding numbers of the shell about `middle` + and - `step`, which is short: triangles far from
+/// it beside its length, and beside their size, count as from the middle.
+std::array<double, 2> windingBeside(Meshes meshes, std::span<const ShellTriangle> shell,
+                                    glm::dvec3 middle, glm::dvec3 step) {
+    constexpr double kFarSteps = 100; // steps
+    const double steps = kFarSteps * kFarSteps * glm::dot(step, step);
+    double before = 0, behind = 0, far = 0;
+    for (const ShellTriangle t : shell) {
+        auto [a, b, c] = cornersOf(meshes, t);
+        a -= middle, b -= middle, c -= middle;
+        // |a| above the sum of two sides and kFarSteps steps, by the inequality of means.
+        if (glm::dot(a, a) > 3 * (glm::dot(b - a, b - a) + glm::dot(c - a, c - a) + steps)) {
+            far += halfSolidAngle(a, b, c);
+        } else {
+            before += halfSolidAngle(a - step, b - step, c - step);
+            behind += halfSolidAngle(a + step, b + step, c + step);
+        }
+    }
+    return {(far + before) / (2 * std::numbers::pi), (far + behind) / (2 * std::numbers::pi)};
+}
+
+/// Whether a winding number is one behind the front of the surface.
+bool isWoundBehind(const ClosedSurface& surface, double winding) {
+    return winding > (surface.isRoom() ? -0.5 : 0.5);
+}
+
 /// Whether some triangles of the surface, evenly spread over its list, have their backs behind its
 /// front, and their fronts before it.
 bool turnsNowhere(Meshes meshes, const ClosedSurface& surface) {
@@ -237,8 +279,8 @@ bool turnsNowhere(Meshes meshes, const ClosedSurface& surface) {
         if (!(area > 0 && area / around > 0))
             continue;
         const glm::dvec3 step = across / around * kDistance;
-        if (!isBehind(meshes, surface, middleOf(c) - step) ||
-            isBehind(meshes, surface, middleOf(c) + step))
+        const auto [before, behind] = windingBeside(meshes, surface.shell, middleOf(c), step);
+        if (!isWoundBehind(surface, behind) || isWoundBehind(surface, before))
             return false;
     }
     return true;
@@ -250,14 +292,8 @@ double windingNumber(std::span<const Mesh* const> meshes, std::span<const ShellT
                      glm::dvec3 point) {
     double sum = 0; // of half solid angles
     for (const ShellTriangle t : shell) {
-        auto [a, b, c] = cornersOf(meshes, t);
-        a -= point, b -= point, c -= point;
-        const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-        const double volume = glm::dot(a, glm::cross(b, c));
-        const double size =
-            la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb;
-        if (volume != 0)
-            sum += std::atan2(volume, size);
+        const auto [a, b, c] = cornersOf(meshes, t);
+        sum += halfSolidAngle(a - point, b - point, c - point);
     }
     return sum / (2 * std::numbers::pi);
 }
@@ -267,7 +303,7 @@ bool isBehind(std::span<const Mesh* const> meshes, const ClosedSurface& surface,
     for (int k = 0; k < 3; ++k)
         if (!(point[k] > double(bounds.lower[k]) && point[k] < double(bounds.upper[k])))
             return surface.isRoom();
-    return windingNumber(meshes, surface.shell, point) > (surface.isRoom() ? -0.5 : 0.5);
+    return isWoundBehind(surface, windingNumber(meshes, surface.shell, point));
 }
 
 std::vector<ClosedSurface> findClosedSurfaces(std::span<const Mesh* const> meshes) {
