@@ -8,6 +8,7 @@
 #include "engine/render/point_irradiance.h"
 #include "engine/techniques/illuminance/gpu/gpu_link_occlusion.h"
 #include "engine/techniques/illuminance/gpu/relight_steps.h"
+#include "engine/techniques/illuminance/relight/bounce_extrapolation.h"
 #include "engine/techniques/illuminance/relight/bouncing.h"
 #include "engine/techniques/illuminance/relight/caches/cache_light.h"
 
@@ -73,6 +74,10 @@ struct GpuRelighter::State {
 
     bool started = false;
     Convergence convergence;
+    BounceExtrapolation ahead;         ///< while nothing changes
+    std::vector<float> seenShare;      ///< seenShares()
+    std::vector<glm::vec3> irradiance; ///< bounced, of surfels, as on the device; empty: not read
+    std::vector<glm::vec4> radiosity;  ///< the same
     Sent direct, albedo, emitted;
     std::vector<glm::vec3> sky;          ///< as sent
     bool blackSky = false;               ///< as assumed by the caches that were sent
@@ -108,6 +113,10 @@ struct GpuRelighter::State {
     void record(VkCommandBuffer cmd, const Work& work);
     void run(const Work& work, GpuRelightStats& stats);
     RoundChange changeOf(std::uint32_t bounce);
+    bool looksAhead() const;
+    void beginAhead();
+    void endAhead();
+    void addRound(const RoundChange& round);
     Work nextBounces(std::uint32_t count, bool grid);
     FieldWork fieldWork(const CacheFlags& write, bool grid);
     float brightestCoefficient() const;
@@ -128,6 +137,7 @@ Result<std::unique_ptr<GpuRelighter>> GpuRelighter::create(gpu::Device& device,
     auto state = std::make_unique<State>(device, std::move(bake), std::move(*buffers));
     state->linkEnds = allLinks(state->bake->caches);
     state->read = cachesRead(state->bake->surfels, state->bake->caches);
+    state->seenShare = seenShares(state->bake->tree);
     state->setBands(0);
     state->direct.buffer = &state->buffers.direct;
     state->albedo.buffer = &state->buffers.albedo;
@@ -260,6 +270,7 @@ void GpuRelighter::State::lightRest() {
         steps->recordLightmapCaches(cmd, rest);
         steps->recordIndirect(cmd);
     });
+    irradiance.clear();
     unread = false;
 }
 
@@ -334,15 +345,50 @@ float GpuRelighter::State::brightestCoefficient() const {
     return 1.13f * maximum;
 }
 
+/// Whether the next bounce is one of those that are extrapolated, as by Relighter. The CPU does
+/// that: most light rests before, and what is left moves a few megabytes a bounce.
+bool GpuRelighter::State::looksAhead() const {
+    return convergence.rounds() + 1 >= BounceExtrapolation::kPlain && !convergence.restarts();
+}
+
+void GpuRelighter::State::beginAhead() {
+    if (irradiance.empty())
+        irradiance = readColors(buffers.indirect, bake->surfels.size());
+    ahead.begin(irradiance);
+}
+
+/// Replaces what surfels have read by what they will read.
+void GpuRelighter::State::endAhead() {
+    irradiance = readColors(buffers.indirect, bake->surfels.size());
+    radiosity.resize(bake->surfels.size());
+    gpu::readBuffer(device, buffers.radiosity, std::as_writable_bytes(std::span(radiosity)));
+    ahead.end({albedo.values, radiosity, bake->surfels.area, seenShare}, irradiance);
+    const VkCommandBuffer cmd = device.begin("irradiance of later bounces");
+    gpu::updateBuffer(device, cmd, buffers.indirect, 0,
+                      std::as_bytes(std::span<const glm::vec4>(padded(irradiance))));
+    device.submit(cmd);
+}
+
+void GpuRelighter::State::addRound(const RoundChange& round) {
+    if (const auto& residual = ahead.residual())
+        convergence.addResidual(residual->change, residual->passedOn);
+    else
+        convergence.addRound(round, ahead.gaveUp());
+}
+
 /// Bounces of one submission, of `count` that are still wanted: as many as are expected to be
 /// needed, less a fourth, because none after the last needed one would be of use. The field follows
 /// where those are all.
 Work GpuRelighter::State::nextBounces(std::uint32_t count, bool grid) {
     const std::uint32_t expected = convergence.expectedRounds();
+    const bool alone = looksAhead();
     Work work;
-    work.bounces = std::min({count, RelightBuffers::kBounces, expected - expected / 4});
+    work.bounces = alone ? 1 : std::min({count, RelightBuffers::kBounces, expected - expected / 4});
+    if (!alone && !convergence.restarts())
+        work.bounces =
+            std::min(work.bounces, BounceExtrapolation::kPlain - 1 - convergence.rounds());
     const bool ends = work.bounces == count;
-    unread = putsOff && ends;
+    unread = putsOff && ends && !alone;
     work.lastIsRead = !unread;
     const CacheFlags& last = unread ? lit : read;
     for (std::uint32_t k = 0; k < work.bounces; ++k)
@@ -403,7 +449,10 @@ bool GpuRelighter::State::takeInputs(const SurfelInputs& inputs, bool newBands,
         convergence.lightChanged();
     const bool changed =
         surfelsChanged || skyChanged || occlusionChanged || gridMissing || settingsChanged;
+    if (changed)
+        ahead.clear();
     if (changed && convergence.restarts()) {
+        irradiance.clear();
         gpu::clearBuffers(device, {buffers.indirect.handle});
         unread = false;
     }
@@ -435,14 +484,23 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     while (bouncing && stats.bounces < bounces && !s.convergence.reached()) {
         work = s.nextBounces(bounces - stats.bounces, grid);
         work.lights = std::exchange(s.newLights, nullptr);
+        const bool ahead = s.looksAhead();
+        if (ahead)
+            s.beginAhead();
+        else
+            s.irradiance.clear();
         s.run(work, stats);
         for (std::uint32_t k = 0; k < work.bounces; ++k)
             if (const RoundChange round = s.changeOf(k); !s.convergence.reached())
-                s.convergence.addRound(round);
+                s.addRound(round);
+        if (ahead && !s.convergence.reached())
+            s.endAhead();
         if (progress.cancelled())
             break;
     }
     stats.converged = s.convergence.reached();
+    if (stats.converged)
+        s.ahead.release();
     stats.passedOn = s.convergence.passedOn();
     stats.grows = s.convergence.grows();
     stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;

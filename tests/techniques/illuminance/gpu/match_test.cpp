@@ -209,5 +209,38 @@ TEST_F(GpuMatch, FollowsTheLightAsTheCpuDoes) {
     expectSame(100);
 }
 
+// A white room, in which each bounce passes on nearly all of the one before: both look ahead.
+TEST_F(GpuMatch, LooksAheadWhereBouncesAreMany) {
+    simple::SceneBuilder b;
+    b.addMaterial(simple::lambert(glm::vec3(0.97f)));
+    b.add(simple::box(glm::vec3(0), {4, 3, 5}, true));
+    Scene room = b.build();
+    room.lights = court().lights;
+    room.bake = court().bake;
+    const TraceScene trace(room);
+    const auto made = baked(trace, room.bake);
+    Relighter cpu(made, LitBands::All);
+    const auto gpu = gpuRelighter(*device, made);
+    const RelightStats cpuStats = cpu.relight(room, trace, 1000);
+    const SurfelValues values = surfelValues(*made, room, trace);
+    const GpuRelightStats stats = gpu->relight(values.inputs(), 1000);
+    std::printf("%u bounces, on the CPU %u\n", stats.bounces, cpuStats.bounces);
+    EXPECT_TRUE(stats.converged);
+    EXPECT_GT(stats.bounces, 20U);
+    EXPECT_LT(stats.bounces, 60U) << "without looking ahead, 305";
+    EXPECT_NEAR(double(stats.bounces), cpuStats.bounces, 2);
+    const double brightest = largest(radiosityOf(cpu));
+    EXPECT_LT(distance(gpu->readRadiosity(), radiosityOf(cpu)).max, 1e-3 * brightest);
+    // In steps of few bounces, as in an editor, and with a view that sees one cache.
+    const auto inSteps = gpuRelighter(*device, made);
+    CacheFlags few(made->caches.lightmapCount, 0);
+    few[0] = 1;
+    std::uint32_t bounces = 0;
+    for (GpuRelightStats step; !step.converged && bounces < 200; bounces += step.bounces)
+        step = inSteps->relight(values.inputs(), 2, {}, &few);
+    EXPECT_NEAR(double(bounces), stats.bounces, 2);
+    EXPECT_LT(distance(inSteps->readRadiosity(), radiosityOf(cpu)).max, 1e-3 * brightest);
+}
+
 } // namespace
 } // namespace limn::match_test
