@@ -116,6 +116,7 @@ struct GpuRelighter::State {
     bool looksAhead() const;
     void beginAhead();
     void endAhead();
+    void releaseAhead();
     void addRound(const RoundChange& round);
     Work nextBounces(std::uint32_t count, bool grid);
     FieldWork fieldWork(const CacheFlags& write, bool grid);
@@ -369,6 +370,12 @@ void GpuRelighter::State::endAhead() {
     device.submit(cmd);
 }
 
+void GpuRelighter::State::releaseAhead() {
+    ahead.release();
+    irradiance = std::vector<glm::vec3>();
+    radiosity = std::vector<glm::vec4>();
+}
+
 void GpuRelighter::State::addRound(const RoundChange& round) {
     if (const auto& residual = ahead.residual())
         convergence.addResidual(residual->change, residual->passedOn);
@@ -500,7 +507,7 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
     }
     stats.converged = s.convergence.reached();
     if (stats.converged)
-        s.ahead.release();
+        s.releaseAhead();
     stats.passedOn = s.convergence.passedOn();
     stats.grows = s.convergence.grows();
     stats.skipped = stats.converged && !bouncing && std::ranges::count(lit, 1) == 0;
