@@ -12,11 +12,6 @@ namespace {
 
 constexpr std::uint32_t kKept = Extrapolation::kKept, kUnknowns = kKept - 1;
 
-/// Products of the changes of bounces i and j, summed over surfels, for each colour.
-struct Products {
-    double of[kKept][kKept][3] = {};
-};
-
 /// Solves the symmetric system a x = b of n unknowns by elimination. Unknowns on which nothing
 /// depends become 0.
 void solve(double a[kUnknowns][kUnknowns], double* b, std::uint32_t n, double* x) {
@@ -43,13 +38,41 @@ void solve(double a[kUnknowns][kUnknowns], double* b, std::uint32_t n, double* x
     }
 }
 
-/// A surfel's weight in products of irradiances: with it, a bounce is a symmetric map, as long as
-/// its links are reciprocal, so that no change passes on more than the slowest one.
-F4 weightOf(const BouncedLight& light, std::size_t s) {
-    return light.albedo[s] * splat(light.area[s]);
+F4 absolute(F4 v) {
+    return v < 0.f ? -v : v;
+}
+
+double sumOf(const double* rgb) {
+    return rgb[0] + rgb[1] + rgb[2];
 }
 
 } // namespace
+
+/// Sums over surfels. Floats sum up a few of them, and doubles these sums.
+struct Extrapolation::Sums {
+    F4 sent{}, all{};          ///< times area: changes of what is sent, and all of it
+    F4 out{}, into{}, light{}; ///< squares of what came out of the bounce and went into it
+    F4 product[kKept] = {};    ///< of the newest change with others, by age
+    double relative = 0;
+};
+struct Extrapolation::Totals {
+    double sent[3] = {}, all[3] = {}, out[3] = {}, into[3] = {}, light[3] = {};
+    double product[kKept][3] = {};
+    double relative = 0;
+
+    void operator+=(const Sums& s) {
+        for (int c = 0; c < 3; ++c) {
+            sent[c] += double(s.sent[c]);
+            all[c] += double(s.all[c]);
+            out[c] += double(s.out[c]);
+            into[c] += double(s.into[c]);
+            light[c] += double(s.light[c]);
+            for (std::uint32_t age = 0; age < kKept; ++age)
+                product[age][c] += double(s.product[age][c]);
+        }
+        relative += s.relative;
+    }
+};
 
 void Extrapolation::before(const F4* irradiance, std::size_t surfels) {
     m_newest = (m_newest + 1) % kKept;
@@ -57,65 +80,67 @@ void Extrapolation::before(const F4* irradiance, std::size_t surfels) {
 }
 
 Residual Extrapolation::replace(const BouncedLight& light) {
+    constexpr std::size_t kBlock = 32;
     m_count = std::min(m_count + 1, kKept);
-    Residual residual;
-    for (std::size_t s = 0; s < light.surfels; ++s) {
-        after[m_newest][s] = light.irradiance[s];
-        const F4 d = light.irradiance[s] - change[m_newest][s], b = light.radiosity[s];
-        change[m_newest][s] = d;
-        const F4 sent = d * light.albedo[s];
-        const float changed = std::fabs(sent[0]) + std::fabs(sent[1]) + std::fabs(sent[2]),
-                    sum = b[0] + b[1] + b[2];
-        residual.change += double(changed) * double(light.area[s]);
-        residual.total += double(sum) * double(light.area[s]);
-        residual.relative += double(relativeChange(changed, sum) * light.seenShare[s]);
+    Totals totals;
+    for (std::size_t begin = 0; begin < light.surfels; begin += kBlock) {
+        Sums sums;
+        for (std::size_t s = begin; s < std::min(begin + kBlock, light.surfels); ++s)
+            take(light, s, sums);
+        totals += sums;
     }
+    for (std::uint32_t age = 0; age < m_count; ++age)
+        for (int c = 0; c < 3; ++c)
+            m_products[m_newest][slot(age)][c] = m_products[slot(age)][m_newest][c] =
+                totals.product[age][c];
     if (m_count >= 2) {
-        measurePassedOn(light);
+        measurePassedOn(totals.into, totals.out, totals.light);
         combine(light);
     }
-    residual.passedOn = m_passedOn;
-    return residual;
+    return {sumOf(totals.sent), sumOf(totals.all), totals.relative, m_passedOn};
 }
 
-void Extrapolation::measurePassedOn(const BouncedLight& light) {
+/// Turns what went into the bounce at a surfel into its change, and adds to the sums. A surfel's
+/// weight in products of irradiances is its albedo times its area: with it, a bounce is a symmetric
+/// map, as long as its links are reciprocal, so that no change passes on more than the slowest one.
+inline void Extrapolation::take(const BouncedLight& light, std::size_t s, Sums& sums) {
+    const std::uint32_t last = slot(1);
+    const F4 irradiance = light.irradiance[s], albedo = light.albedo[s], b = light.radiosity[s],
+             area = splat(light.area[s]), weight = albedo * area,
+             d = irradiance - change[m_newest][s];
+    change[m_newest][s] = d;
+    after[m_newest][s] = irradiance;
+    const F4 sent = absolute(d * albedo);
+    sums.sent += sent * area;
+    sums.all += b * area;
+    sums.relative += double(relativeChange(sent[0] + sent[1] + sent[2], b[0] + b[1] + b[2]) *
+                            light.seenShare[s]);
+    const F4 weighted = d * weight;
+    sums.product[0] += weighted * d;
+    if (m_count < 2)
+        return;
+    const F4 out = irradiance - after[last][s], into = out - d + change[last][s];
+    sums.out += out * out * weight;
+    sums.into += into * into * weight;
+    sums.light += irradiance * irradiance * weight;
+    for (std::uint32_t age = 1; age < m_count; ++age)
+        sums.product[age] += weighted * change[slot(age)][s];
+}
+
+/// By the latest two bounces.
+void Extrapolation::measurePassedOn(const double* into, const double* out, const double* light) {
     constexpr double kRounding = 1e-8; // squares of changes that are mostly rounding
-    double into[3] = {}, out[3] = {}, all[3] = {};
-    const std::uint32_t now = slot(0), last = slot(1);
-    for (std::size_t s = 0; s < light.surfels; ++s) {
-        const F4 weight = weightOf(light, s), g = after[now][s] - after[last][s],
-                 x = g - change[now][s] + change[last][s];
-        const F4 g2 = g * g * weight, x2 = x * x * weight,
-                 a2 = after[now][s] * after[now][s] * weight;
-        for (int c = 0; c < 3; ++c) {
-            out[c] += double(g2[c]);
-            into[c] += double(x2[c]);
-            all[c] += double(a2[c]);
-        }
-    }
     for (int c = 0; c < 3; ++c)
-        if (into[c] > kRounding * all[c] && into[c] > 0)
+        if (into[c] > kRounding * light[c] && into[c] > 0)
             m_passedOn = std::max(m_passedOn, std::sqrt(out[c] / into[c]));
 }
 
 void Extrapolation::combine(const BouncedLight& light) {
-    Products sum;
-    for (std::size_t s = 0; s < light.surfels; ++s) {
-        const F4 weight = weightOf(light, s);
-        for (std::uint32_t i = 0; i < m_count; ++i) {
-            const F4 weighted = change[slot(i)][s] * weight;
-            for (std::uint32_t j = 0; j <= i; ++j) {
-                const F4 product = weighted * change[slot(j)][s];
-                for (int c = 0; c < 3; ++c)
-                    sum.of[i][j][c] += double(product[c]);
-            }
-        }
-    }
     F4 factor[kUnknowns] = {};
     const std::uint32_t unknowns = m_count - 1;
     for (int c = 0; c < 3; ++c) {
         const auto product = [&](std::uint32_t i, std::uint32_t j) {
-            return sum.of[std::max(i, j)][std::min(i, j)][c];
+            return m_products[slot(i)][slot(j)][c];
         };
         double a[kUnknowns][kUnknowns] = {}, b[kUnknowns] = {}, x[kUnknowns] = {};
         for (std::uint32_t i = 0; i < unknowns; ++i) {

@@ -47,12 +47,16 @@ public:
     Residual replace(const BouncedLight& light);
 
 private:
-    void measurePassedOn(const BouncedLight& light);
+    struct Sums;
+    struct Totals;
+    void take(const BouncedLight& light, std::size_t surfel, Sums& sums);
+    void measurePassedOn(const double* into, const double* out, const double* light);
     void combine(const BouncedLight& light);
     std::uint32_t slot(std::uint32_t age) const { return (m_newest + kKept - age) % kKept; }
 
     std::uint32_t m_count = 0, m_newest = 0;
     double m_passedOn = 0;
+    double m_products[kKept][kKept][3] = {}; ///< of two slots' changes, in each colour
 };
 
 } // namespace limn::runtime
