@@ -70,6 +70,7 @@ void Session::solveGoals() {
         takeStrengths(state, *found);
     }
     goals.running = m_explainJob.busy() && !m_explainJob.order()->goals.empty();
+    m_explainJob.report(goals.stage, goals.fraction);
     if (!goals.start || m_explainJob.busy() || state.gesture)
         return;
     goals.start = false;

@@ -33,6 +33,18 @@ bool ExplainJob::start(ExplainOrder order) {
     return true;
 }
 
+Progress ExplainJob::progress() {
+    const auto report = [this](const char* stage, float fraction) {
+        {
+            const std::lock_guard lock(m_mutex);
+            m_stage = stage;
+            m_fraction = fraction;
+        }
+        m_wake();
+    };
+    return {.report = report, .cancel = &m_cancel};
+}
+
 /// Lights the order's scene, unless that was lit last.
 Result<void> ExplainJob::light(const ExplainOrder& order) {
     const PixelQuestion& q = order.goals.empty() ? order.question : order.goals.front().question;
@@ -45,10 +57,8 @@ Result<void> ExplainJob::light(const ExplainOrder& order) {
     const Technique* technique = findTechnique(order.scene->technique.technique);
     if (!technique)
         return fail("the technique is unknown");
-    Progress progress;
-    progress.cancel = &m_cancel;
     auto lit = convergeLight(order.scene, std::make_shared<const TraceScene>(*order.scene),
-                             *technique, order.prepared, LitFor::Pictures, progress, &view);
+                             *technique, order.prepared, LitFor::Pictures, progress(), &view);
     if (!lit)
         return tl::make_unexpected(lit.error());
     m_lit = std::move(*lit);
@@ -80,10 +90,16 @@ void ExplainJob::carryOut(const ExplainOrder& order) {
     }
     Result<SolvedStrengths> strengths =
         lit ? solveStrengths(*m_lit, *findTechnique(order.scene->technique.technique), order.goals,
-                             order.free, {.cancel = &m_cancel})
+                             order.free, progress())
             : tl::make_unexpected(lit.error());
     const std::lock_guard lock(m_mutex);
     m_solved = {order.scene, order.lights, std::move(strengths)};
+}
+
+void ExplainJob::report(std::string& stage, float& fraction) const {
+    const std::lock_guard lock(m_mutex);
+    stage = m_stage;
+    fraction = m_fraction;
 }
 
 bool ExplainJob::busy() const {

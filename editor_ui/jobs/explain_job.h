@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 
 namespace limn {
@@ -59,11 +60,15 @@ public:
     /// The newest order; std::nullopt: there was none.
     const std::optional<ExplainOrder>& order() const { return m_order; }
 
+    /// Stage of the order that is being carried out and the fraction of it that is done.
+    void report(std::string& stage, float& fraction) const;
+
     /// Each returns the result of the last order of its kind once.
     std::optional<Explained> takeResult();
     std::optional<SolvedLights> takeSolved();
 
 private:
+    Progress progress();
     Result<void> light(const ExplainOrder& order);
     Explained explain(const ExplainOrder& order) const;
     void carryOut(const ExplainOrder& order);
@@ -78,6 +83,8 @@ private:
     mutable std::mutex m_mutex;           ///< guards what follows
     std::optional<Explained> m_result;
     std::optional<SolvedLights> m_solved;
+    std::string m_stage;
+    float m_fraction = 0;
 };
 
 } // namespace limn

@@ -123,7 +123,9 @@ void goalsPanel(EditorState& state) {
     solveButton(goals);
     choices(goals);
     const float width = ImGui::GetContentRegionAvail().x;
-    if (!goals.error.empty()) {
+    if (goals.running) {
+        ImGui::ProgressBar(goals.fraction, {width, 0}, goals.stage.c_str());
+    } else if (!goals.error.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, color::warning());
         elidedText(goals.error, width);
         ImGui::PopStyleColor();

@@ -39,7 +39,9 @@ struct GoalsState {
     bool selectedOnly = false; ///< only selected lights may change
     bool start = false;        ///< the session is to solve
     bool running = false;
-    std::string error; ///< of the last solution
+    std::string stage;  ///< of the solution that is running
+    float fraction = 0; ///< of that stage
+    std::string error;  ///< of the last solution
 };
 
 /// The table that explains a pixel of the picture.

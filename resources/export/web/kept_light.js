@@ -40,10 +40,18 @@ function sourcesOf(state, apart) {
 /** Keeps light beside `transport`, of openTransport(), as far as memory allows. */
 export function keptLight(transport) {
   const { counts, fileSky } = transport, apart = counts.chromaBands === counts.bands;
-  const slots = Math.min(kMaxKept, Math.floor(kMaxBytes / (counts.caches * (4 + 6 * counts.bands ** 2))));
-  let scene = null, finding = null, sources = [];
+  const maxSlots = Math.min(kMaxKept, Math.floor(kMaxBytes / (counts.caches * (4 + 6 * counts.bands ** 2))));
+  let scene = null, slots = 0, finding = null, sources = [];
   const kept = new Map(); // slots by key, the one that was used last at the end
 
+  /** Opens the scene with room for twice the sources, so that some that change need not push out others. */
+  const open = () => {
+    scene?.close();
+    kept.clear();
+    finding = null;
+    slots = Math.min(2 * sources.length, maxSlots);
+    scene = transport.again(slots);
+  };
   const freeSlot = () => {
     if (kept.size < slots) return kept.size;
     const [key, slot] = [...kept].find(([key]) => !sources.some((s) => s.key === key));
@@ -80,11 +88,11 @@ export function keptLight(transport) {
     },
     /** One bounce of a source whose light is not kept yet. Returns false where there is none, or no room for all. */
     find() {
-      if (sources.length > slots) return false;
+      if (sources.length > maxSlots) return false;
+      if (sources.length > slots) open();
       if (!finding || !sources.some((s) => s.key === finding.source.key)) {
         const wanted = sources.filter((s) => !kept.has(s.key)), next = wanted.find((s) => !isDark(s.rgb)) ?? wanted[0];
         if (!next) return false;
-        scene ??= transport.again(slots);
         begin(next);
       }
       finding.bounces += scene.step();

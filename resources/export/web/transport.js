@@ -123,6 +123,8 @@ export async function openTransport(wasm, packed, maxLights, tolerance) {
       return rgb;
     },
 
+    close() { rt.limnrt_close(scene); },
+
     /** The same scene once more, with light of its own, which keeps light in `maxKept` slots, kMaxKept at most. */
     again(maxKept) { return methods(openScene(maxKept)); },
   });

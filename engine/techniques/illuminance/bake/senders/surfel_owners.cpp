@@ -78,6 +78,9 @@ static std::uint32_t oppositeLongestSide(const Mesh& mesh, std::uint32_t triangl
 }
 
 void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
+    // With a quarter of the spacing, the border between two owners is off by an eighth of it at
+    // most. With thirds, 48.1 % of a floor's light points lay under a plate that covers 50 % of it;
+    // with quarters 49.8 %.
     constexpr float kMaxCells = 1024;
     const MeshDensity& density = surfels.density;
     const double weight = summedWeight(mesh, density) / surfels.frontCount; // of a surfel
@@ -116,6 +119,13 @@ void SurfelOwners::sizeBlocks(const Mesh& mesh, const MeshSurfels& surfels) {
         cells += block.across * block.up;
     });
     m_owner.resize(cells);
+}
+
+bool SurfelOwners::isOneCell(std::uint32_t triangle) const {
+    if (m_density.side(triangle) > 1)
+        return false;
+    const Block& block = m_blocks[blockOf(triangle, glm::uvec2(0))];
+    return block.across == 1 && block.up == 1;
 }
 
 void SurfelOwners::forTriangles(

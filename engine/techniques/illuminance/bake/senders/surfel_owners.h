@@ -36,10 +36,7 @@ public:
         return m_owner[cellAt(triangle, u, v).cell] + (back ? m_frontCount : 0);
     }
 
-    /// Along the spacing of surfels: the border between two owners is off by an eighth of it at
-    /// most. With thirds, 48.1 % of a floor's light points lay under a plate that covers 50 % of
-    /// it; with quarters 49.8 %.
-    static constexpr float kCellsPerSpacing = 4;
+    static constexpr float kCellsPerSpacing = 4; ///< along the spacing of surfels
     static constexpr std::uint32_t kAcross = 4, kParts = kAcross * kAcross; ///< of a cell
     struct Place {
         std::uint32_t cell, part; ///< < cells(), < kParts
@@ -96,12 +93,7 @@ public:
         });
     }
     /// Whether a triangle is smaller than a cell, so that it has one of its own.
-    bool isOneCell(std::uint32_t triangle) const {
-        if (m_density.side(triangle) > 1)
-            return false;
-        const Block& block = m_blocks[blockOf(triangle, glm::uvec2(0))];
-        return block.across == 1 && block.up == 1;
-    }
+    bool isOneCell(std::uint32_t triangle) const;
     std::uint32_t frontCount() const { return m_frontCount; }
     /// The surfel on the front of a cell.
     std::uint32_t front(std::uint32_t cell) const { return m_owner[cell]; }
