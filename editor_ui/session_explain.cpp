@@ -2,18 +2,11 @@
 #include "editor_ui/document/document_edit.h"
 #include "editor_ui/panels/light_refusal.h"
 #include "editor_ui/session.h"
+#include "engine/scene/find_object.h"
 
 #include <algorithm>
 
 namespace limn {
-
-static std::vector<ObjectId> lightIds(const Document& document) {
-    std::vector<ObjectId> ids;
-    for (const auto& [id, object] : document.objects)
-        if (std::holds_alternative<Light>(object))
-            ids.push_back(id);
-    return ids;
-}
 
 void Session::showExplanation() {
     ExplainState& explain = state.explain;
@@ -33,7 +26,7 @@ void Session::showExplanation() {
                        .question = explain.pick->question};
     if (m_explainJob.order() == order)
         return;
-    order.lights = lightIds(state.document);
+    order.lights = idsOf<Light>(state.document);
     explain.running = m_explainJob.start(std::move(order));
 }
 
@@ -79,7 +72,7 @@ void Session::solveGoals() {
         return;
     ExplainOrder order{.scene = m_whole,
                        .prepared = lightsBake() ? m_baked.prepared() : Prepared{},
-                       .lights = lightIds(state.document)};
+                       .lights = idsOf<Light>(state.document)};
     for (const GoalsState::Goal& goal : goals.goals)
         order.goals.push_back({goal.pick.question, goal.wanted});
     for (std::uint32_t l = 0; l < order.lights.size(); ++l)

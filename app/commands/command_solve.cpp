@@ -9,6 +9,7 @@
 #include "engine/files/project_file.h"
 #include "engine/json/json.h"
 #include "engine/picture/solve_strengths.h"
+#include "engine/scene/light/photometry.h"
 #include "engine/techniques/technique_table.h"
 
 #include <algorithm>
@@ -36,17 +37,8 @@ struct SolveCommand {
 
 constexpr const char* kGoalForm = "X,Y=LUMINANCE, a pixel of the picture and a number above 0";
 
-const char* unitOfLight(const Light& light) {
-    switch (light.kind) {
-    case LightKind::Directional:
-        return "lux";
-    case LightKind::Rectangle:
-        return "nits";
-    case LightKind::Point:
-    case LightKind::Spot:
-        return "cd";
-    }
-    return "";
+std::string_view unitOf(const Light& light) {
+    return nameOf(unitsOf(light.kind).front());
 }
 
 /// Reads the --goal options.
@@ -103,7 +95,7 @@ void print(const SolvedStrengths& solved, const std::vector<StrengthGoal>& goals
     for (std::size_t l = 0; l < scene.lights.size(); ++l)
         fmt::print("{:<40} {:>12.5g} {:>12.5g}  {:<4} {:>9.4g}\n",
                    fmt::format("{} {}", l, scene.lights[l].name), scene.lights[l].strength,
-                   scene.lights[l].strength * solved.factor[l], unitOfLight(scene.lights[l]),
+                   scene.lights[l].strength * solved.factor[l], unitOf(scene.lights[l]),
                    solved.factor[l]);
     fmt::print("\n{:<40} {:>12} {:>12} {:>12}\n", "Luminance at", "now", "solved", "goal");
     for (std::size_t g = 0; g < goals.size(); ++g)
@@ -117,7 +109,7 @@ void printJson(const SolveCommand& command, const SolvedStrengths& solved,
     auto lights = Json::array(), pixels = Json::array();
     for (std::size_t l = 0; l < scene.lights.size(); ++l)
         lights.push_back({{"name", scene.lights[l].name},
-                          {"unit", unitOfLight(scene.lights[l])},
+                          {"unit", unitOf(scene.lights[l])},
                           {"strength", scene.lights[l].strength},
                           {"solved", scene.lights[l].strength * solved.factor[l]},
                           {"factor", solved.factor[l]}});

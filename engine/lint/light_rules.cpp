@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 #include "engine/math/luminance.h"
 #include "engine/math/sampling.h"
+#include "engine/scene/find_object.h"
 #include "engine/scene/light/rectangle_light.h"
 #include "engine/scene/mesh/input_hash.h"
 #include "engine/scene/origin.h"
@@ -32,15 +33,6 @@ const LintRule kStrongLightRule = {"strong-light", Severity::Warning,
                                    "A light is brighter than the sun: its unit may be wrong"};
 
 namespace {
-
-/// The lights of the document in the order of Scene::lights.
-std::vector<ObjectId> lightIds(const Document& document) {
-    std::vector<ObjectId> ids;
-    for (const auto& [id, object] : document.objects)
-        if (std::holds_alternative<Light>(object))
-            ids.push_back(id);
-    return ids;
-}
 
 /// Direct light at points spread over all surfaces [lux].
 struct PointLight {
@@ -139,7 +131,7 @@ class LightRules {
 public:
     LightRules(const LintScene& in, std::vector<LintPoint> points, PointLight light)
         : m_in(in), m_points(std::move(points)), m_light(std::move(light)),
-          m_ids(lightIds(in.document)) {}
+          m_ids(idsOf<Light>(in.document)) {}
 
     std::vector<Finding> find() {
         for (std::size_t l = 0; l < m_in.scene.lights.size(); ++l)

@@ -117,7 +117,6 @@ struct GpuRelighter::State {
     void beginAhead();
     void endAhead();
     void releaseAhead();
-    void addRound(const RoundChange& round);
     Work nextBounces(std::uint32_t count, bool grid);
     FieldWork fieldWork(const CacheFlags& write, bool grid);
     float brightestCoefficient() const;
@@ -376,13 +375,6 @@ void GpuRelighter::State::releaseAhead() {
     radiosity = std::vector<glm::vec4>();
 }
 
-void GpuRelighter::State::addRound(const RoundChange& round) {
-    if (const auto& residual = ahead.residual())
-        convergence.addResidual(residual->change, residual->passedOn);
-    else
-        convergence.addRound(round, ahead.gaveUp());
-}
-
 /// Bounces of one submission, of `count` that are still wanted: as many as are expected to be
 /// needed, less a fourth, because none after the last needed one would be of use. The field follows
 /// where those are all.
@@ -499,7 +491,7 @@ GpuRelightStats GpuRelighter::relight(const SurfelInputs& inputs, std::uint32_t 
         s.run(work, stats);
         for (std::uint32_t k = 0; k < work.bounces; ++k)
             if (const RoundChange round = s.changeOf(k); !s.convergence.reached())
-                s.addRound(round);
+                s.ahead.addRound(round, s.convergence);
         if (ahead && !s.convergence.reached())
             s.endAhead();
         if (progress.cancelled())

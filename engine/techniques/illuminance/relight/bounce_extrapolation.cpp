@@ -126,6 +126,13 @@ void BounceExtrapolation::end(const BouncingSurfels& surfels, std::span<glm::vec
     combine(bestFactors(), irradiance);
 }
 
+void BounceExtrapolation::addRound(const RoundChange& round, Convergence& convergence) const {
+    if (m_residual)
+        convergence.addResidual(m_residual->change, m_residual->passedOn);
+    else
+        convergence.addRound(round, m_grows);
+}
+
 /// Turns what went into the bounce into its change.
 RoundChange BounceExtrapolation::takeChange(const BouncingSurfels& surfels,
                                             std::span<const glm::vec3> irradiance) {

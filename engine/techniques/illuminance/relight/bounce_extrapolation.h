@@ -54,8 +54,8 @@ public:
         double passedOn = 0;
     };
     const std::optional<Residual>& residual() const { return m_residual; }
-    /// Whether a bounce has passed on all of a change or more since clear().
-    bool gaveUp() const { return m_grows; }
+    /// Counts a bounce that changed surfels by `round`: by residual(), where there is one.
+    void addRound(const RoundChange& round, Convergence& convergence) const;
 
     std::uint64_t bytes() const;
 

@@ -305,11 +305,7 @@ RoundChange Relighter::State::lightSurfels() {
 /// Lights the surfels for another bounce. Most scenes rest, and light moves on, before bounces are
 /// extrapolated.
 void Relighter::State::beginBounce() {
-    const RoundChange round = lightSurfels();
-    if (const auto& residual = ahead.residual())
-        convergence.addResidual(residual->change, residual->passedOn);
-    else
-        convergence.addRound(round, ahead.gaveUp());
+    ahead.addRound(lightSurfels(), convergence);
     if (convergence.rounds() >= BounceExtrapolation::kPlain && !convergence.restarts())
         ahead.begin(indirect);
 }

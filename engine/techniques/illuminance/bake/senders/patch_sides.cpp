@@ -258,9 +258,9 @@ SmallCells findSmallCells(const Patches& patches) {
     return result;
 }
 
-/// Writes the owners of the cells of sides for which `wanted(entry)` is true, by index into
-/// `owner`; those that are not beside their nearest surfel stay kBehind unless `ask`. Returns
-/// whether any other one is not the nearest surfel.
+/// Writes the entries of `owner` for which `wanted(entry)` is true: the surfel nearest to the cell
+/// or, where a wall stands between the two, another one on the cell's side if `ask`, else kBehind.
+/// Returns whether another one was written.
 template <class Wanted>
 bool ownCells(const Patches& patches, const Progress& progress, bool ask, const Wanted& wanted,
               std::vector<std::uint32_t>& owner) {

@@ -93,7 +93,8 @@ Scene divided(const Scene& scene, int times) {
     return result;
 }
 
-// Triangles smaller than cells, of which many share the answer to which surfel lies on their side.
+// Triangles smaller than cells: those of one place that a wall parts from their nearest surfel
+// share an owner.
 TEST(PatchSides, PatchesOfSmallTrianglesEndAtWalls) {
     for (const float wall : {0.f, 0.01f, 0.1f}) {
         const Scene scene = divided(partedHall(wall, 500, kWall), 6);
